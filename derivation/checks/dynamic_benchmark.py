@@ -302,7 +302,7 @@ class _Motion:
             return np.concatenate(([0.0], own))
         at, unit = self._touching(state), problem.force
         return np.concatenate(
-            (-at.force / unit, own + problem.inverse_modal_mass * at.felt[0] / unit)
+            (-at.force / unit, own + problem.inverse_modal_mass * at.modal_forces[0] / unit)
         )
 
     def force(self, state: Array) -> float:
@@ -317,7 +317,7 @@ class _Motion:
         a = self.radius
         for _ in range(50):
             at = problem.contact.at(np.array([problem.a * a]))
-            depth = at.depth[0] / problem.depth + at.less[0] @ q
+            depth = at.depth[0] / problem.depth + at.weights_less_one[0] @ q
             slope = problem.a * (at.depth_a[0] / problem.depth + at.less_a[0] @ q)
             step = (depth - deep) / slope
             a = min(max(a - step, 0.1 * a), problem.contact.top / problem.a)

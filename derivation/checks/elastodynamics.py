@@ -17,7 +17,7 @@ from derivation.engine.files import expect_writable, write_file
 from derivation.engine.measure.result import CheckResult, all_passed
 from derivation.engine.outputs import plain_rows
 from derivation.engine.text import aligned, paragraph
-from derivation.scene.dynamic.back_face import Course
+from derivation.scene.dynamic.back_face import StressHistory
 from derivation.scene.dynamic.model_error import ROUGHLY_RESOLVED, inertia_error, stress_error
 from derivation.scene.errors import SceneError
 from derivation.scene.impact import simulate
@@ -167,7 +167,7 @@ def simulated(row: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def smoothed_peak(course: Course, contact_time: float) -> float:
+def smoothed_peak(course: StressHistory, contact_time: float) -> float:
     """Return the largest stress [Pa] of a course that is smoothed as that of finite elements is.
 
     The same smoothing does not count as a difference between both.

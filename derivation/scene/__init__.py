@@ -12,7 +12,7 @@ The modules and folders in reading order:
    (`method_selection`, `achieved_accuracy`). `limits` rejects scenes outside the range of the
    contact law, and warns where it is inaccurate. `explanation` prints all of it.
 5. `quasi_static` simulates impacts on a plate without inertia: `motion` for an elastic contact,
-   `viscous` and `plastic` for the others.
+   `viscous` and `plastic` for viscoelastic and plastic ones.
 6. `dynamic` simulates impacts on a plate with inertia: modes (`modal`), tables of the contact
    (`contact_tables`), the scaled problem (`problem`), one time element (`time_element`), the
    sequence of contacts (`contact_sequence`), the time history (`wave_motion`) and the results.
@@ -21,11 +21,11 @@ The modules and folders in reading order:
    a material constant from a measured restitution.
 8. `rows` computes many scenes at once in arrays, with the same effects, bounds and laws; `sweep`
    simulates a scene for each value of a key.
-9. `result` holds the results; `output` prints, exports and draws them.
-10. `code` generates a module with the law and the impact of one scene.
+9. `result` contains the results; `output` prints, exports and draws them. 10. `code` generates a
+module with the law and the impact of one scene.
 
-A scene that cannot be computed raises a `SceneError`. NaN occurs only as a value: the restitution
-of an incomplete impact, or a number of an array outside the range.
+A scene that cannot be computed raises a `SceneError`. NaN occurs only as the restitution of an
+incomplete impact, and in arrays for arguments outside the range.
 
 `kernels` imports the generated package; the commands are in `derivation.commands`.
 

@@ -21,7 +21,7 @@ class SceneError(ValueError):
 
 @dataclass(frozen=True)
 class Slower:
-    """The remedy of a contact that is too wide.
+    """Advice for a contact that is too wide.
 
     Attributes
     ----------

@@ -131,7 +131,7 @@ def explain(scene: Scene, rtol: float | None = None) -> Explanation:
 
 
 def _has_most_modes(law: ContactLaw) -> bool:
-    """Return whether a simulation begins with so many modes that their tables take long."""
+    """Return whether the first run has so many modes that their tables take long to compute."""
     from derivation.scene.dynamic.mode_count import MOST, count_of
 
     return count_of(law) >= MOST

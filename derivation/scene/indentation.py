@@ -43,15 +43,15 @@ from derivation.scene.selection.selection import check_enabled
 
 UNITS = {"contact_radius": "m", "force": "N", "indentation": "m"}
 STIFFNESS = 4.0 / 3.0
-"""Relative change of the stiffness over that of the force, at an equal indentation, if that of the
-indentation at an equal force is proportional to a/R: 2 over 3/2 times this change."""
+"""Relative change of the stiffness over that of the force, at equal indentation, if the relative
+change of the indentation at equal force is proportional to a/R."""
 HEADS = (
     "#radius [m]", "#indentation [m]", "#force [N]", "#stiffness [N/m]", "#max. pressure [Pa]",
 )  # fmt: skip
 """Column heads of the table of contacts."""
 _STEPS, _CLOSE, _FOUND, _HALVINGS = 60, 4e-16, 1e-12, 60
-"""Largest number of Newton's steps; relative step that ends them, and that a result may have;
-halvings of an interval."""
+"""Largest number of Newton's steps; relative step that ends the iteration; largest relative step of
+an accepted result; number of halvings of an interval."""
 Values = float | Iterable[float]
 
 
@@ -352,7 +352,7 @@ def _range_end(law: ContactLaw, name: str) -> tuple[float, str]:
     if _grows(law, name, last):
         return last, law.limit_in_words
     low = last_true(lambda a: _grows(law, name, a), 0.0, last, _HALVINGS)
-    return low, f"{low:.6g} m, beyond which the law of this plate does not hold"
+    return low, f"{low:.6g} m, beyond which the law of this plate is not valid"
 
 
 def _grows(law: ContactLaw, name: str, a: float) -> bool:

@@ -25,7 +25,7 @@ _CURVATURES = {
 NUMBERS = ("R", "m", "v0", "h", "b", "lam", "mu")
 HERTZ_TIME, TIME_BY_ZENER = 3.3, 5.0
 """Contact time over (m^2/(K^2 v0))^(1/5), which is 3.22 by Hertz's law and more on a plate, and its
-increase with the Zener parameter: a first guess for the radius of an infinite plate."""
+increase with the Zener parameter: used for a first guess of the radius of an infinite plate."""
 
 
 @dataclass(frozen=True)
@@ -54,8 +54,8 @@ class InertiaSettings:
 class Model:
     """The quantities of a scene, named as in the paper.
 
-    For many scenes at once, each number may be an array of shape (n, 1): `derived_rows` makes such
-    models. Effects and contact law accept them like single numbers.
+    For many scenes at once, each number may be an array of shape (n, 1), see
+    `rows.columns.models_of`. Effects and contact law accept such models like those of one scene.
 
     Attributes
     ----------

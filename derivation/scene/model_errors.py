@@ -30,7 +30,8 @@ def model_errors(
     It is that by edge, waves, stretching, viscosity, finite size of the sphere and motion of faces.
 
     On a quasi-static plate, stretching changes the energy that a plastic or viscoelastic contact
-    dissipates. In the restitution this counts by the ratio of that energy to the one that remains.
+    dissipates. The relative error of the restitution is larger by the ratio of that energy to the
+    remaining energy.
     """
     model, other_edge, a = law.model, law.other_edge, numbers[3]
     growth = growth_of(motion)
@@ -60,7 +61,7 @@ def model_errors(
     edge = edge_remainder(model, a) if returned else 0.0
     waves["max_contact_radius"] += curvature_error(motion.inertia.curvature)
     if law.viscous:
-        end = end_error(motion.courses[0][P], waves["max_force"])
+        end = end_error(motion.histories[0][P], waves["max_force"])
         waves["contact_time"] = max(waves["contact_time"], end)
     return {
         name: max(waves[name] + stretched[name], edge) + unlike[name] + sphere[name]

@@ -14,12 +14,12 @@ IN_FRONT = 3
 FEWEST_DIGITS, MOST_DIGITS = 2, 12
 """Limits of the number of significant digits that are shown."""
 ONE_DIGIT, NO_DIGITS = 0.3, 1.0
-"""Relative errors from which one digit is shown, and none because no digit holds."""
+"""Relative errors from which one digit is shown, and none."""
 
 MOST = 10.0
-"""Ratio above which only this is stated in per cent."""
+"""Ratio above which only "more than" this ratio is stated, in per cent."""
 ROUNDED = 1e-12
-"""Relative error by rounding of a number that may be a round one, such as 240 MPa [1]."""
+"""Relative rounding error of a number that must not be rounded up further, such as 0.01 [1]."""
 
 
 def digits_of(error: float) -> int:

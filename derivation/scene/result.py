@@ -336,7 +336,7 @@ class Result:
 
     @cached_property
     def unusable_note(self) -> str:
-        """Which results the model does not support, and what to do; empty if it supports all."""
+        """Which results are not usable, and what to do; empty if all are usable."""
         return unusable.in_words(self)
 
     @property

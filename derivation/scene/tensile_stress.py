@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 
 VIBRATION = 0.3
 """Relative change of the stress of a slow impact by vibration, over the first period divided by the
-contact time. The plate starts with the speed of the sphere, and vibrates about its static
-deflection; at most 0.25 in nine simulations with inertia."""
+contact time. The plate starts with the speed of the sphere and vibrates about its static
+deflection. The change was at most 0.25 in nine simulations with inertia."""
 
 
 class TensileStress(NamedTuple):
@@ -91,7 +91,7 @@ def tensile_stress(
     numbers
         The results of the impact.
     on_edge
-        Whether the edge of the scene counts.
+        Whether the edge of the scene is used.
     """
     from derivation.scene.dynamic.back_face import stress_end
     from derivation.scene.dynamic.wave_problem import echo_time
@@ -131,7 +131,7 @@ def static_errors(
     contact_time, period
         Contact times and first periods of the plate [s]; the period is 0 without a density.
     on_edge
-        Whether the edge of the scene counts, even if the law omits it.
+        Whether the edge of the scene is used, even if the law omits it.
     """
     deflection = np.maximum(deflection, 0.0)  # of a stiff plate, by rounding or approximation
     error = membrane_stress(law.model, deflection) + stretching(law.model, deflection)

@@ -53,7 +53,7 @@ def test_stress_of_a_thin_plate_is_that_of_an_integral_over_wave_numbers() -> No
     m = law.model
     H, E, nu = 2.0 * m.h, 2.0 * m.mu * (1.0 + m.poissons_ratio), m.poissons_ratio
     stiff = E * H**3 / (12.0 * (1.0 - nu**2))
-    peak = float(motion.courses[0][3].argmax()) / (motion.courses[0].shape[1] - 1)
+    peak = float(motion.histories[0][3].argmax()) / (motion.courses[0].shape[1] - 1)
     now = peak * result.contact_time
     times = np.linspace(0.0, now, 2001)
     force = motion.rows(times)[3]
@@ -116,7 +116,7 @@ def test_response_to_a_linear_force_is_exact() -> None:
     found, _ = waves.driven(np.zeros(waves.decay.size, dtype=complex), times, a, times)
     modes, shares = (
         waves.plate.modes,
-        waves.shares(waves.plate.modes, a)[0][waves.plate.modes.shape],
+        waves.modal_force_ratios(waves.plate.modes, a)[0][waves.plate.modes.shape],
     )
     each = stresses.wave_stresses(waves.law.model, modes) * modes.compliances
     swing = np.sin(np.multiply.outer(times, modes.omega)) / modes.omega

@@ -107,11 +107,11 @@ def test_search_in_a_long_flight_respects_the_work_limit() -> None:
     problem = problem_of(ContactLaw(BALL, EFFECTS), 8)
     above = problem.begin()._replace(velocity=0.0, approach=-1.0)
     leaving = above._replace(velocity=-1.0, displacement=-1.0)
-    _, _, one = flight.meeting(problem, leaving, 0.0)
+    _, _, one = flight.next_contact(problem, leaving, 0.0)
     assert one > 0.0
     started = time.process_time()
     with pytest.raises(IncompleteError, match="without contact"):
-        flight.meeting(problem, above, 0.0, 3.0 * one)
+        flight.next_contact(problem, above, 0.0, 3.0 * one)
     assert time.process_time() - started < 1.0
 
 

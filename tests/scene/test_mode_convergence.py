@@ -82,7 +82,7 @@ def test_error_of_the_contact_time_covers_a_ripple_that_vanishes_at_the_end(mode
         dynamic_impact_of(law, contact_sequence.impact_history(problem, 24, 1e-8, math.inf))
         for problem in (problem_of(branching(law, "A0"), n) for n in (modes // 2, modes, 400))
     )
-    stated = mode_convergence.judged(coarse, run).inertia.error_of_modes("contact_time")
+    stated = mode_convergence.compare(coarse, run).inertia.error_of_modes("contact_time")
     assert abs(run.contact_time / finer.contact_time - 1.0) <= stated <= 4e-4
 
 
@@ -102,7 +102,7 @@ def test_the_end_of_a_viscoelastic_contact_is_no_ripple_of_its_radius() -> None:
         dynamic_impact_of(law, contact_sequence.impact_history(problem_of(law, n), 24, 1e-8))
         for n in (34, 69, 138)
     )
-    stated = mode_convergence.judged(coarse, run).inertia.error_by_ripple("max_contact_radius")
+    stated = mode_convergence.compare(coarse, run).inertia.error_by_ripple("max_contact_radius")
     assert abs(run.max_contact_radius / finer.max_contact_radius - 1.0) <= stated <= 1e-3
 
 
@@ -227,7 +227,7 @@ def test_runs_with_other_contacts_are_compared_contact_by_contact() -> None:
         for problem in (problem_of(branching(law, "A0"), n) for n in (10, 23, 70))
     )
     assert len(coarse.inertia.contacts) != len(run.inertia.contacts)
-    details = mode_convergence.judged(coarse, run).inertia
+    details = mode_convergence.compare(coarse, run).inertia
     for name in ("max_force", "max_contact_radius"):
         change = abs(getattr(coarse, name) / getattr(run, name) - 1.0)
         error = abs(getattr(run, name) / getattr(finer, name) - 1.0)
@@ -241,7 +241,7 @@ def test_the_first_contact_is_known_better_than_the_ones_after_it() -> None:
         dynamic_impact_of(law, contact_sequence.impact_history(problem, 24, 1e-6, math.inf))
         for problem in (problem_of(branching(law, "A0"), n) for n in (23, 46, 92))
     )
-    details = mode_convergence.judged(coarse, run).inertia
+    details = mode_convergence.compare(coarse, run).inertia
     stated = details.error(("contact_time",))
     assert abs(run.contact_time / finer.contact_time - 1.0) <= stated
     assert stated < 0.5 * details.error(("restitution",))
@@ -261,7 +261,7 @@ def test_a_ripple_of_unloading_leaves_the_largest_force_of_cast_shot_known() -> 
         dynamic_impact_of(law, contact_sequence.impact_history(problem, 24, 1e-8, math.inf))
         for problem in (problem_of(law, n) for n in (25, 50, 99))
     )
-    stated = mode_convergence.judged(coarse, run).inertia.error(("max_force",))
+    stated = mode_convergence.compare(coarse, run).inertia.error(("max_force",))
     assert abs(run.max_force / finer.max_force - 1.0) <= stated <= 1e-2
 
 

@@ -281,7 +281,7 @@ def test_first_contact_without_end_is_rejected(
 def test_reasons_for_a_failed_contact() -> None:
     problem = problem_of(law(), 8)
     widest = problem.contact.top / problem.a
-    failure = contact_errors.lost(problem, problem.begin(), widest, 0.0)
+    failure = contact_errors.no_solution(problem, problem.begin(), widest, 0.0)
     assert f"grows wider than {problem.contact.top:.4g} m" in failure.why
     assert "impact.speed" in str(failure.remedy)
 

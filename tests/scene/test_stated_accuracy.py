@@ -150,7 +150,7 @@ def test_slow_modes_exclude_contact_for_a_time() -> None:
     history = contact_sequence.impact_history(problem, 14)
     for one, two in zip(history.contacts, history.contacts[1:], strict=False):
         wait = two.start - one.end
-        clear = flight._clear(problem, one.after)
+        clear = flight._time_apart(problem, one.after)
         assert clear <= wait
         for fraction in (0.25, 0.5, 1.0):
             assert problem.flown(one.after, fraction * clear).approach <= 1e-12

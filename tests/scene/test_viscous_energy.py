@@ -85,11 +85,13 @@ def test_energies_add_up_at_all_times(impact: Result) -> None:
             a = recovered(problem, face, t - start)
         q = np.array([deflections(history, float(time)) for time in t])
         at = problem.contact.at(problem.a * a)
-        elastic, felt = at.force / problem.force, at.felt / problem.force
-        stored = work(problem, a) + np.vecdot(elastic[:, None] * (1.0 + at.less) - felt, q)
-        depth = at.depth / problem.depth + np.vecdot(1.0 + at.less, q)
+        elastic, modal_forces = at.force / problem.force, at.modal_forces / problem.force
+        stored = work(problem, a) + np.vecdot(
+            elastic[:, None] * (1.0 + at.weights_less_one) - modal_forces, q
+        )
+        depth = at.depth / problem.depth + np.vecdot(1.0 + at.weights_less_one, q)
         late = force - elastic
-        ratio = problem.bending_fraction * felt / np.maximum(elastic, 1e-300)[:, None]
+        ratio = problem.bending_fraction * modal_forces / np.maximum(elastic, 1e-300)[:, None]
         power = cumulative_trapezoid(late, depth, initial=0.0)
         for j in range(q.shape[1]):
             power -= cumulative_trapezoid(late * ratio[:, j], q[:, j], initial=0.0)

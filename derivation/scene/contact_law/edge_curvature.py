@@ -1,4 +1,4 @@
-"""Model error of contact radius and pressure by the curvature of a held plate under the contact."""
+"""Model error of radius and pressure by the curvature of a simply supported or clamped plate."""
 
 import math
 from typing import TYPE_CHECKING, NamedTuple
@@ -29,19 +29,20 @@ class CurvatureErrors(NamedTuple):
 
 
 def edge_curvature_errors(law: "ContactLaw", a: float) -> CurvatureErrors:
-    """Return the model errors by the curvature of a held plate, at a contact radius [m].
+    """Return the model errors by the curvature of the plate, at a contact radius [m].
 
-    The force at a given contact radius has a part of its change by the edge as its error. At a
-    given force, radius and indentation change by a third of that or less. The central pressure of
-    a wide contact is small and depends on the shape of the plate, too: its error is relative to
-    the mean pressure.
+    The error of the force at a given contact radius is a fraction of the change of the force by the
+    edge. At a given force, radius and indentation change by a third of that or less. The central
+    pressure of a wide contact is small and depends on the shape of the plate, too: its error is
+    relative to the mean pressure.
     """
     if not (law.solved and law.edge_curvature):
         return CurvatureErrors(0.0, 0.0)
     eta, case = law.model.eta, law.case
     part = max(LINEAR * eta, SQUARE * eta * eta)
     other = case._replace(edge=0.0)
-    # A plastic contact is wider, and one on the paper's plate may open at its centre before.
+    # A plastic contact is wider, and with the paper's edge contact may be lost at the centre
+    # before.
     radii = np.array([min(a, closed_up_to(other, float(law.limit)))])
     plain, held = solved(radii, other), solved(radii, case)
     change = part / 3.0 * abs(float(held.force[0] / plain.force[0]) - 1.0)

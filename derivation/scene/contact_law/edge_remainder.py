@@ -2,8 +2,9 @@
 
 The table contains the error relative to the indentation by h/b, Poisson's ratio and a/b, and the
 changes with coarser finite elements, which are added. Between the points of the table the largest
-neighbour counts. Other columns are the error of the stress on the axis of the back face, relative
-to this stress. Both are model errors and not part of the error bound of the computation.
+neighbouring value is used. Other columns contain the error of the stress on the axis of the back
+face, relative to this stress. Both are model errors and not part of the error bound of the
+computation.
 """
 
 import json

@@ -35,7 +35,8 @@ LOSS = 1.5
 """Change of the logarithm of the restitution e over -log(e) and the change of the indentation: at
 most 0.91 in 128 random elastic and yielding impacts, and 1.0 in 38 that yield, for small e."""
 LARGEST = 0.99
-"""Largest change of the indentation; the change of the other results grows beyond all bounds."""
+"""Largest change of the indentation; towards it, the changes of the other results become
+infinite."""
 
 
 def finite_size(nu: Numbers, ratio: Values) -> Values:
@@ -70,7 +71,7 @@ def _of_sphere(law: ContactLaw, a: Values) -> Values:
 
 
 def _sphere_share(law: ContactLaw) -> Any:
-    """Return the part of the compliance of both bodies that is the sphere's [1]."""
+    """Return the compliance of the sphere over that of both bodies [1]."""
     return law.softness / (1.0 + law.softness)
 
 
@@ -88,7 +89,7 @@ def finite_sphere_error(law: ContactLaw, a: Values, indentation: Values) -> Valu
     """Return the relative change of indentation, force, radius and time of a contact [1].
 
     The shape of the arguments is kept. On a plate with inertia the force may rise before the plate
-    has deflected, so that the change of the local indentation counts as a whole.
+    has deflected, so that the change is relative to the local indentation alone.
 
     Parameters
     ----------

@@ -349,7 +349,7 @@ class ContactLaw:
 
     @property
     def case(self) -> SolvedCase:
-        """What determines the contact with non-Hertzian pressure."""
+        """The quantities that determine a contact with non-Hertzian pressure."""
         m, edge = self.model, self.edge_curvature
         return SolvedCase(m.h, m.b, m.R, self.modulus, m.modulus, self.spherical, edge)
 

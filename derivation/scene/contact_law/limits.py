@@ -218,7 +218,7 @@ def _compared(value: float, largest: float, limit: float) -> str:
 
 
 class PlateTimes(NamedTuple):
-    """Zener parameter [1], first bending period [s] and time of two thickness echoes [s]."""
+    """Zener parameter [1], first bending period [s], time of two reflections of a wave [s]."""
 
     zener: float
     period: float
@@ -267,7 +267,7 @@ def motion_warnings(
     known: PlateTimes | None = None,
     errors: ImpactErrors = EXACT,
 ) -> tuple[str, ...]:
-    """Return warnings about neglected plate inertia and thickness echoes; none without density.
+    """Return warnings about neglected inertia and wave reflections; none without a density.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Contacts with non-Hertzian pressure, remembered as bounds and motion need the same radii."""
+"""Contacts with non-Hertzian pressure, cached because bounds and motion need the same radii."""
 
 from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class SolvedCase(NamedTuple):
-    """What determines the contact of a law at a radius.
+    """The quantities that determine the contact of a law at a radius.
 
     Attributes
     ----------

@@ -2,8 +2,8 @@
 
 Beyond the onset, where Hertz's pressure reaches 1.6 Y, loading adds plastic indentation. Unloading
 is elastic with a flattened radius and leaves a dent (see `generated.plasticity`). The added
-indentation depends on the force and on the largest force so far, and can be combined with any
-elastic law. Depths are measured from the dent at the beginning of the current branch.
+indentation depends on the force and on the largest force so far, so that it can be combined with
+any elastic law. Depths are measured from the dent at the beginning of the current branch.
 """
 
 import math

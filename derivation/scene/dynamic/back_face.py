@@ -1,15 +1,17 @@
 """Stress on the back face of a plate with inertia, on the axis, over time.
 
-Under an impact the plate is not bent as under a static load: waves that leave the contact have not
-reached the edge yet. With q the modes of all wave branches under the computed contact force, c
-their static compliances, P_j the forces that drive them and S their stresses per deflection,
+During an impact the plate does not bend as under a static load, because the waves that leave the
+contact have not reached the edge yet. With q the modes of all wave branches under the computed
+contact force, c their static compliances, P_j the forces that drive them and S their stresses per
+deflection,
 
     sigma = static stress(P, a) + sum S_n (q_n - c_n P_j).
 
-Modes that are faster than the impact are omitted: they respond quasi-statically.
+Modes that are much faster than the impact are omitted, because they respond quasi-statically.
 
-Shear waves cross the thickness late, in a nearly incompressible plate after many echoes of the
-pressure waves: the largest stress may follow the last separation.
+Shear waves cross the thickness more slowly than pressure waves, in a nearly incompressible plate
+only after many reflections of these. The largest stress may therefore occur after the last
+separation.
 """
 
 import math
@@ -30,7 +32,7 @@ from derivation.scene.dynamic.mode_count import (
     branching,
     coarser,
     finer,
-    oscillators,
+    mode_total,
 )
 from derivation.scene.dynamic.model_error import echoes_during
 from derivation.scene.dynamic.time_element import A, P
@@ -46,8 +48,8 @@ The force is linear in each step."""
 WORK, MOST = 3e5, 2e6
 """Numbers of modes times steps: up to the first the modes are doubled, above the second halved."""
 MODES, ROOM = 10_000, 1.1
-"""Number of modes of all branches from which a narrower plate is sufficient, if no wave returns
-from its edge; its radius over the smallest such radius."""
+"""Number of modes of all branches above which a narrower plate is simulated from whose edge no wave
+returns in time; its radius over the smallest such radius."""
 AT_ONCE = 2**18
 """Number of values of modes that are computed at once."""
 ESTIMATE = 2.0
@@ -61,7 +63,7 @@ SMALL = 1e-9
 """Smallest contact radius over half the thickness at which the stress is evaluated."""
 
 
-class Course(NamedTuple):
+class StressHistory(NamedTuple):
     """Times [s] since first contact, and the stress [Pa] then."""
 
     times: Array
@@ -69,40 +71,41 @@ class Course(NamedTuple):
 
 
 class BackFace(NamedTuple):
-    """Stress on the axis of the back face: its largest value [Pa] and its course.
+    """Stress on the axis of the back face: its largest value [Pa] and its history.
 
     The estimated relative error is that by omitted modes. Stress and error are NaN and there is no
-    course if the contact ends before a pressure wave has returned from the back face: finite
+    history if the contact ends before a pressure wave has returned from the back face: finite
     elements do not resolve the stress of such an impact.
 
-    `on_edge` is how far the stress under a static load equal to the largest force, the limit of
-    the waves for slow impacts, is from that on the edge of the scene [1]: the edge has an effect on
-    the bending modes below their cut-off only. It is 0 if no wave returns from the edge.
+    `on_edge` is the error of the edge [1]: only bending modes below their cut-off depend on the
+    edge of the scene. It is the relative difference of two stresses under a static load equal to
+    the largest force: that of the modes, and that with the edge of the scene. It is 0 if no wave
+    returns from the edge.
     """
 
     stress: float
     error: float
-    course: Course | None
+    course: StressHistory | None
     on_edge: float = 0.0
 
 
 def back_face(motion: DynamicImpact) -> BackFace:
     """Return the largest tensile stress on the axis of the back face.
 
-    The time ends when shear waves from the last contact have crossed the thickness.
+    The history ends when shear waves from the last contact have crossed the thickness.
     """
     inertia = replace(motion.law.model.inertia, branches="all", modes=0)
     law = replace(motion.law, model=replace(motion.law.model, inertia=inertia))
     if echoes_during(law.model, motion.contact_time) < 1.0:
         return BackFace(math.nan, math.nan, None)
     until = stress_end(motion)
-    if oscillators(law, affordable(law)) > MODES:
+    if mode_total(law, affordable(law)) > MODES:
         law = _narrower(law, until)
     count = _count(law, until)
     with one_thread(), np.errstate(all="ignore"):
-        rough, fine = (_course(motion, law, n) for n in (coarser(count), count))
+        rough, fine = (_stress_history(motion, law, n) for n in (coarser(count), count))
         returned = until > echo_time(law.model)
-        lacking = _lacking_on_edge(motion, law, count) if returned else 0.0
+        lacking = _static_difference(motion, law, count) if returned else 0.0
     changes = np.abs(fine.stress - np.interp(fine.times, *rough))
     if returned:  # short waves that return from the edge may add a peak at any time
         changes = np.max(changes)
@@ -114,14 +117,14 @@ def back_face(motion: DynamicImpact) -> BackFace:
 def stress_end(motion: DynamicImpact) -> float:
     """Return the time [s] since first contact at which shear waves have crossed the thickness.
 
-    It is that of the last separation, if the impact is incomplete.
+    For an incomplete impact, it is the time of the last separation.
     """
     model, total = motion.law.model, motion.inertia.total_time
     return total + (2.0 * model.h / model.shear_speed if motion.inertia.complete else 0.0)
 
 
-def _lacking_on_edge(motion: DynamicImpact, law: ContactLaw, count: int) -> float:
-    """Return by how much the static limit of the waves differs from the stress on the edge [Pa]."""
+def _static_difference(motion: DynamicImpact, law: ContactLaw, count: int) -> float:
+    """Return by how much the static stress differs between modes and the edge of the scene [Pa]."""
     a, force = np.array([motion.max_contact_radius]), np.array([motion.max_force])
     waves = _Waves.of(law, count, motion.max_contact_radius)
     return float(np.abs(force * waves.static(a) - law.tensile_stresses(a, force))[0])
@@ -139,17 +142,17 @@ def _count(law: ContactLaw, time: float) -> int:
 
     def work(count: int) -> float:
         fastest = float(free_modes(branching(law, "A0").model, count).omega[-1])
-        return oscillators(law, count) * time * fastest / PHASE
+        return mode_total(law, count) * time * fastest / PHASE
 
     count = affordable(law)
-    if work(finer(law, count)) <= WORK and oscillators(law, finer(law, count)) <= MODES:
+    if work(finer(law, count)) <= WORK and mode_total(law, finer(law, count)) <= MODES:
         return finer(law, count)
     while count > FEWEST and work(count) > MOST:
         count = coarser(count)
     return count
 
 
-def _course(motion: DynamicImpact, law: ContactLaw, count: int) -> Course:
+def _stress_history(motion: DynamicImpact, law: ContactLaw, count: int) -> StressHistory:
     """Return the stress in all contacts, in the flights between them, and after the last one."""
     waves = _Waves.of(law, count, motion.max_contact_radius)
     z, end, found = np.zeros(waves.decay.size, dtype=complex), 0.0, []
@@ -166,12 +169,12 @@ def _course(motion: DynamicImpact, law: ContactLaw, count: int) -> Course:
     if stress_end(motion) > end:
         times = waves.times(end, stress_end(motion))
         found.append((times, waves.flown(z, times)[0]))
-    return Course(*map(np.concatenate, zip(*found, strict=True)))
+    return StressHistory(*map(np.concatenate, zip(*found, strict=True)))
 
 
 @dataclass(frozen=True)
 class _Waves:
-    """The waves of a plate as complex amplitudes z, whose imaginary part is the deflection.
+    """The modes of a plate as complex amplitudes z, whose imaginary part is the deflection.
 
     They obey z' = decay z + P_j. `weights` are their stresses over the imaginary part of z, and
     `widest` is the largest contact radius [m].
@@ -226,7 +229,7 @@ class _Waves:
         late = (both - 1.0) / y
         both, late = step * (both - late), step * late
         modes = self.plate.modes
-        driving = force[:, None] * self.shares(modes, a)
+        driving = force[:, None] * self.modal_force_ratios(modes, a)
         found = [np.array([z.imag @ self.weights])]
         for part in np.array_split(np.arange(1, times.size), 1 + times.size * z.size // AT_ONCE):
             early, now = (driving[places][:, modes.shape] for places in (part - 1, part))
@@ -238,10 +241,10 @@ class _Waves:
         return np.concatenate(found) + force * self.remainder(a), z
 
     def static(self, a: Array) -> Array:
-        """Return the stress per force of a static load, to which all waves respond [Pa/N]."""
+        """Return the stress per force of a static load, under which all modes deflect [Pa/N]."""
         modes = self.plate.modes
         each = wave_stresses(self.law.model, modes) * modes.compliances
-        return self.remainder(a) + self.shares(modes, a) @ modes.by_shape(each)
+        return self.remainder(a) + self.modal_force_ratios(modes, a) @ modes.by_shape(each)
 
     def remainder(self, a: Array) -> Array:
         """Return the stress of the quasi-static remainder per force at contact radii [Pa/N].
@@ -257,13 +260,13 @@ class _Waves:
         squares = self.widest**2 * np.linspace(0.0, 1.0, RADII)
         a = np.maximum(np.sqrt(squares), SMALL * self.law.model.h)
         still = self.law.tensile_stresses(a, np.ones_like(a), on_edge=False)
-        for sign, modes in ((-1.0, self.plate.less), (1.0, self.plate.more)):
+        for sign, modes in ((-1.0, self.plate.removed), (1.0, self.plate.added)):
             if modes is not None:
                 each = wave_stresses(self.law.model, modes) * modes.compliances
-                still = still + sign * (self.shares(modes, a) @ modes.by_shape(each))
+                still = still + sign * (self.modal_force_ratios(modes, a) @ modes.by_shape(each))
         return squares, np.asarray(still)
 
-    def shares(self, modes: Modes, a: Array) -> Array:
+    def modal_force_ratios(self, modes: Modes, a: Array) -> Array:
         """Return the force that drives each shape over the contact force, at radii [m]."""
         if id(modes) not in self._tables:
             rest = self.law.only(lambda e: e.static and not e.other_edge)

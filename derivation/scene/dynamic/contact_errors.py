@@ -18,25 +18,28 @@ from derivation.scene.errors import (
 )
 
 STUCK = 1e-7
-"""Length of an element in x, over max(x, 1), at which one without a solution ends the simulation.
-In 75 impacts, shorter elements had a solution only after failures of elements longer than 6e-5."""
+"""Length of an element in x, over max(x, 1), below which the simulation ends if the element has no
+solution. In 75 impacts, shorter elements had a solution only after failures of elements longer than
+6e-5."""
 TOO_WIDE = 1.05
-"""Contact radius over the limit of the law at which a simulation ends: so much wider that with more
-modes it would not be within the limit."""
+"""Contact radius over the limit of the law at which a simulation ends: with more modes, so wide a
+contact would not be within the limit either."""
 GRID, SAFE = 400, 0.97
-"""Number of radii of the energy of a contact, and margin of a speed that follows from it."""
+"""Number of radii for the energy of a contact, and safety factor of a speed that follows from
+it."""
 WIDE = 1.01
-"""Contact radius over the limit above which a whole simulation is not repeated with more modes."""
+"""Contact radius over the limit above which a completed simulation is not repeated with more
+modes."""
 HEAVY = 10.0
 """Sphere mass over mass of the first mode above which the plate acts as a spring."""
 SHARP = 0.05
 """Slope of the gap over that without vibration below which the contact is no longer circular."""
 
 
-def endless(problem: DynamicProblem, t: float, most: int) -> EndlessError:
+def too_many_steps(problem: DynamicProblem, t: float, most: int) -> EndlessError:
     """Return the error of a simulation with too many time steps."""
     remedy = "reduce inertia.modes, increase accuracy.rtol, or set effects.inertia = false"
-    if math.isfinite(problem.heard):
+    if math.isfinite(problem.first_echo):
         remedy = 'use a thicker plate or a lighter sphere, or remove extent = "infinite"'
     return EndlessError(
         f"the sphere was still in contact {problem.T * t:.6g} s after first contact, when the "
@@ -48,8 +51,8 @@ def endless(problem: DynamicProblem, t: float, most: int) -> EndlessError:
 def check_width(problem: DynamicProblem, radius: float) -> None:
     """Raise an error if a plastic contact is far wider than the law allows.
 
-    Yielding widens a contact beyond the radius of the elastic law, at which its tables end. A
-    contact that is not so wide is checked with the results.
+    Yielding widens a contact beyond the radius of the elastic law, at which its tables end.
+    Narrower contacts are checked with the results.
 
     Parameters
     ----------
@@ -70,7 +73,7 @@ def check_width(problem: DynamicProblem, radius: float) -> None:
 
 
 def check_whole_width(problem: DynamicProblem, widest: float) -> None:
-    """Raise an error if a whole contact is wider than the law allows also with more modes.
+    """Raise an error if a simulated contact is too wide, and would be so with more modes, too.
 
     Parameters
     ----------
@@ -87,13 +90,13 @@ def check_whole_width(problem: DynamicProblem, widest: float) -> None:
 
 
 def _too_wide(problem: DynamicProblem, widest: float, least: str = "") -> WideContactError:
-    """Return the error of a contact of a radius [m]; `least` says if it is a lower bound."""
+    """Return the error of a contact of a radius [m]; `least` is text in front of the radius."""
     got, ratio = f"{least}{widest:.6g}", widest / problem.limit
-    return wide_contact("impact.speed", problem.range_end, got, narrower(problem), ratio)
+    return wide_contact("impact.speed", problem.range_end, got, advice_for_width(problem), ratio)
 
 
-def narrower(problem: DynamicProblem) -> Slower:
-    """Return what makes a contact narrower, with a speed that is low enough if there is one."""
+def advice_for_width(problem: DynamicProblem) -> Slower:
+    """Return advice that makes a contact narrower, with a low enough speed if there is one."""
     weight = " or impact.gravity" if problem.weight else ""
     speed = sufficient_speed(problem)
     others = f"{weight}, or use a lighter sphere or a thicker plate"
@@ -101,11 +104,11 @@ def narrower(problem: DynamicProblem) -> Slower:
 
 
 def sufficient_speed(problem: DynamicProblem) -> float:
-    """Return a speed [m/s] from which a first contact stays within the limit of the law.
+    """Return a speed [m/s] at which the first contact stays within the limit of the law.
 
-    The sphere then has less energy than the contact absorbs up to the limit without any motion of
-    the modes; these only take energy from it. 0 if the tables of the contact end before the limit,
-    or the weight alone exceeds it.
+    At this speed the sphere has less energy than the contact absorbs up to the limit if the modes
+    do not move; moving modes only take energy from it. The result is 0 if the tables of the contact
+    end before the limit, or if the weight alone exceeds it.
     """
     a = min(problem.limit, problem.contact.top) * np.linspace(0.0, 1.0, GRID)[1:]
     at = problem.contact.at(a)
@@ -120,7 +123,7 @@ def sufficient_speed(problem: DynamicProblem) -> float:
     last = int(np.searchsorted(wide, problem.limit))
     if last < 2:  # the contact yields, and is too wide, as soon as it begins
         return 0.0
-    # Each sum has less force than the integral, and the last interval is omitted.
+    # Each sum is less than its integral, and the last interval is omitted.
     work = float(np.sum(at.force[: last - 1] * np.diff(a[:last]) * depth_a[: last - 1]))
     depth = float(np.sum(np.diff(a[:last]) * depth_a[: last - 1]))
     weight = problem.weight * problem.v0 / problem.T
@@ -134,7 +137,7 @@ def rounded_down(x: float) -> float:
     return math.floor(x / unit) * unit
 
 
-def lost(
+def no_solution(
     problem: DynamicProblem, state: ImpactState, radius: float, time: float
 ) -> IncompleteError:
     """Return the error of a contact without a solution: too wide, not circular, or extreme."""
@@ -152,16 +155,16 @@ def lost(
         )
         if problem.contact.top >= problem.limit:
             why = f"grows wider than the contact law allows, {problem.range_end}"
-        remedy = narrower(problem)
+        remedy = advice_for_width(problem)
     bent = problem.contact.modes.by_shape(state.q)
-    # The present radius and a larger one, of a plastic contact also where unloading begins.
+    # The present radius and a larger one; for a plastic contact also that where unloading begins.
     for branch in (problem, turned(problem, radius)):
         for a in (radius, 1.2 * radius):
             at = branch.at(problem.a * np.array([min(a, beyond)]))
             elastic_slope = at.depth_a[0] / problem.depth
             if a > 0.0 and not elastic_slope + at.less_a[0] @ bent > SHARP * elastic_slope:
                 why = "is not circular, because the plate is more curved than the sphere"
-                remedy = flatter(problem)
+                remedy = advice_for_curvature(problem)
                 if _circular_without_yield(problem, min(a, beyond), bent):
                     why = (
                         "has no solution, because the yielded contact unloads more stiffly than "
@@ -174,8 +177,8 @@ def lost(
     return IncompleteError(f"the contact at {time:.6g} s {why}", remedy)
 
 
-def flatter(problem: DynamicProblem) -> str:
-    """Return what makes the plate less curved than the sphere."""
+def advice_for_curvature(problem: DynamicProblem) -> str:
+    """Return advice that makes the plate less curved than the sphere."""
     first = problem.inverse_modal_mass[problem.by_speed[:1]]
     if not np.any(first > HEAVY):
         return "use a smaller sphere or a thicker plate"
@@ -186,7 +189,7 @@ def flatter(problem: DynamicProblem) -> str:
 
 
 def _circular_without_yield(problem: DynamicProblem, a: float, bent: Array) -> bool:
-    """Return whether only the flattening by yield makes the plate more curved than the sphere."""
+    """Return whether the plate is more curved than the sphere only because this yielded."""
     if problem.yielding is None:
         return False
     at = problem.contact.at(problem.a * np.array([a]))

@@ -9,13 +9,13 @@ import numpy as np
 
 from derivation.engine.activity import announce
 from derivation.scene.contact_law.yielding import Yielding
-from derivation.scene.dynamic.contact_errors import STUCK, check_width, endless, lost
-from derivation.scene.dynamic.flight import meeting
+from derivation.scene.dynamic.contact_errors import STUCK, check_width, no_solution, too_many_steps
+from derivation.scene.dynamic.flight import next_contact
 from derivation.scene.dynamic.next_element import (
     PHASE,
     ROUGH,
     begun,
-    judged,
+    error_and_scales,
     left_after,
     longest,
     next_length,
@@ -38,12 +38,13 @@ power 2/5 of the tolerance: the impulse that remains falls as the power 5/2 of t
 SOLVED = 1e-3
 """Tolerance of Newton's iteration over that of the element, if its derivative is exact."""
 CONTACTS, ELEMENTS, WORK = 100, 20_000, 3.5e7
-"""Largest numbers of contacts and of computed elements of an impact, and largest work: elements and
-evaluations in flight, weighted by the run time of each."""
+"""Largest numbers of contacts and of computed elements of an impact, and largest work: the numbers
+of elements and of evaluations in flight, weighted by the run time of each."""
 PROGRESS = 50
 """Elements after which the simulation reports its progress."""
 STAYS = 20.0
-"""Contact time over half a period on the plate above which the weight holds the sphere on it."""
+"""Contact time over half a period of the sphere on the plate, above which its weight is assumed to
+hold it there."""
 LEFT, ENOUGH = "no further contact is possible", "no further contact is needed"
 """End reasons of a complete simulation, and of one that its caller ends."""
 
@@ -52,9 +53,9 @@ class ContactRun(NamedTuple):
     """A contact: start and end in units of the problem, time elements, states before and after.
 
     `radius` is the contact radius at the start; it is above 0 if the face has not recovered from
-    the last contact. The modes of the state after it move freely; the deflection that lags a
-    viscoelastic contact belongs to its face. `tried` is the number of computed elements, including
-    rejected ones. `yielding` is the branch of a plastic contact at its end.
+    the last contact. The modes of the state after the contact vibrate freely; the deflection that
+    recovers with a viscoelastic face is not part of them. `tried` is the number of computed
+    elements, including rejected ones. `yielding` is the branch of a plastic contact at its end.
     """
 
     start: float
@@ -76,7 +77,7 @@ class ImpactHistory:
     reason
         Why the simulation ends.
     remedy
-        What to change so that the simulation becomes complete; empty if it is complete.
+        Advice to make the simulation complete; empty if it is complete.
     work
         Work in the units of `WORK`; an upper bound if the simulation is incomplete.
     tolerance
@@ -116,7 +117,8 @@ def impact_history(
         Function of the contacts so far that returns whether no more are needed. It is called after
         1, 2, 4, ... contacts.
     watch
-        Function that `contact` calls with radii, to raise an error if the simulation is useless.
+        Function that `contact` calls with contact radii; it may raise an error to end the
+        simulation.
 
     Returns
     -------
@@ -141,14 +143,15 @@ def impact_history(
             after, last = touching.after, touching.pieces[-1].radius
             if touching.yielding is not problem.yielding:
                 problem = replace(problem, yielding=touching.yielding)
-            # A sphere that would fall back only by its weight has left: that is another impact.
+            # A sphere that falls back only by its weight has left the plate: its return is another
+            # impact.
             weightless = replace(problem, weight=0.0) if problem.weight else problem
-            wait, radius, looks = meeting(weightless, after, last, work - used)
-            used += looks
+            wait, radius, flight_work = next_contact(weightless, after, last, work - used)
+            used += flight_work
             if problem.weight and wait < math.inf:
-                wait, radius, looks = meeting(problem, after, last, work - used)
-                used += looks
-            if wait == math.inf or touching.end + wait > problem.heard:
+                wait, radius, flight_work = next_contact(problem, after, last, work - used)
+                used += flight_work
+            if wait == math.inf or touching.end + wait > problem.first_echo:
                 return ImpactHistory(problem, tuple(runs), LEFT, "", used, tolerance)
             _check_count(problem, runs, touching.end + wait)
         except IncompleteError as end:
@@ -198,7 +201,7 @@ def least_work(history: ImpactHistory, fastest: float, count: int) -> float:
     Parameters
     ----------
     history
-        A run with fewer modes, in contact for as long.
+        A run with fewer modes, with an equally long time in contact.
     fastest
         Largest angular frequency of the modes [1/s].
     count
@@ -260,7 +263,7 @@ def contact(
     exact = not (problem.retardation_time or problem.yielding)
     enough = max(NEXT, SOLVED * tolerance) if exact else NEXT
     closed = CLOSED * math.pow(tolerance, 0.4)
-    # At the start the tolerance refers to the expected size of each quantity.
+    # At the start the tolerance is relative to the expected size of each quantity.
     scale = np.full((LOST, 1), 0.1)
     for step in range(tried, most):
         if step % PROGRESS == PROGRESS - 1:
@@ -276,7 +279,7 @@ def contact(
                 break
             length *= 0.5
             continue
-        error, change, largest = judged(problem, made, scale, tolerance)
+        error, change, largest = error_and_scales(problem, made, scale, tolerance)
         if error > tolerance:
             length *= change
             continue
@@ -286,9 +289,10 @@ def contact(
             except UncutError:
                 length *= 0.5
                 continue
-        # A viscoelastic contact separates before it is flat, and may meet again within an element.
+        # A viscoelastic face separates before it is flat, and may touch the sphere again within an
+        # element.
         ending = problem.retardation_time or float(made.element.rows[P].sum()) <= 0.0
-        # At first the force is smaller than its error, and must not seem to vanish.
+        # At first the force is smaller than its error; a zero there is not the end of the contact.
         onset = problem.retardation_time and not x
         least = ROUGH * tolerance * float(largest[P, 0]) if onset else 0.0
         if ending and (end := made.element.fall(P, least)) is not None:
@@ -315,8 +319,8 @@ def contact(
             tries, pieces = step + 1 - tried, tuple(elements)
             return ContactRun(start, ended, first, pieces, begin, after, tries, problem.yielding)
     else:
-        raise endless(problem, origin + x**ONSET, most)
-    raise lost(problem, state, radius, problem.T * (origin + x**ONSET))
+        raise too_many_steps(problem, origin + x**ONSET, most)
+    raise no_solution(problem, state, radius, problem.T * (origin + x**ONSET))
 
 
 def _check_weight(problem: DynamicProblem, x: float) -> None:

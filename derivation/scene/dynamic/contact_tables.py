@@ -1,4 +1,4 @@
-"""Tables of a contact law with the modes of a plate: forces, depth, modal weights by radius."""
+"""Tables of a contact law with the modes of a plate: forces, depth and modal weights by radius."""
 
 import math
 from dataclasses import dataclass
@@ -15,10 +15,10 @@ from generated.pressure_kernels import force_of_waves
 DEGREE, RESOLVED = 32, 0.75
 """Smallest degree of the tables, and its increase per largest wave number times a."""
 DIGITS = 33.0
-"""Natural logarithm of the accuracy that the degree of the tables gives for a sphere."""
+"""The degree of the tables for a sphere gives the relative accuracy exp(-DIGITS)."""
 TAIL, LAST, FINER, HIGHEST = 1e-13, 4, 1.5, 150
-"""Least bound of the last coefficients of force and depth over the largest one, number of these,
-and the factor by which the degree grows until it is met, up to a degree of `HIGHEST`."""
+"""Smallest tolerance for the last coefficients of force and depth, over the largest one; number of
+these coefficients; factor by which the degree grows until they meet it, and largest degree."""
 
 
 FLATTEST = 0.1
@@ -30,14 +30,14 @@ class ContactSamples(NamedTuple):
     """The contact at radii, with derivatives `_a` with respect to the radius.
 
     `forces` has the contact force and then the forces that drive the shapes [N], in columns;
-    `depth` is the quasi-static depth [m]; `less` is s_j - 1 of each shape [1].
+    `depth` is the quasi-static depth [m]; `weights_less_one` is s_j - 1 of each shape [1].
     """
 
     forces: Array
     forces_a: Array
     depth: Array
     depth_a: Array
-    less: Array
+    weights_less_one: Array
     less_a: Array
 
     @property
@@ -51,7 +51,7 @@ class ContactSamples(NamedTuple):
         return self.forces_a[:, 0]
 
     @property
-    def felt(self) -> Array:
+    def modal_forces(self) -> Array:
         """The forces that drive the shapes [N]."""
         return self.forces[:, 1:]
 
@@ -64,8 +64,8 @@ class ContactTables:
     depth and s_j - 1 over x^2, and of the derivatives of both over x^2 and x: four tables with a
     row for each polynomial.
 
-    A plate that is curved less or more than under a static load changes the force at a given
-    radius. `static_change` contains the coefficients of the change by the static curvature that is
+    If the plate is curved less or more than under a static load, the force at a given radius
+    changes. `static_change` contains the coefficients of the change by the static curvature that is
     part of the law, over x^3 [N]; None if the law has the Hertz pressure, without any curvature.
     """
 
@@ -139,7 +139,7 @@ def contact_of(
         Largest value of the last coefficients over the largest one [1].
     """
     # sin(a phi) requires a polynomial of a degree above a phi/2.
-    fastest = float(np.max(plate.less.phi, initial=0.0))
+    fastest = float(np.max(plate.removed.phi, initial=0.0))
     degree = max(DEGREE, int(16 + RESOLVED * top * fastest), _of_sphere(law, top))
     sampled = _sampled(law, top, degree)
     while degree < HIGHEST and not sampled.resolved(knots(degree)[1], tail):
@@ -150,13 +150,17 @@ def contact_of(
 
     def driven(modes: Modes) -> tuple[Array, Array]:
         """Return P_j over x^3, and s_j - 1."""
-        less = modes.modal_weights_less_one(a)
-        return mean @ (analysis @ (growth * (1.0 + less))), 0.0 * less if pointwise else less
+        weights_less_one = modes.modal_weights_less_one(a)
+        return mean @ (
+            analysis @ (growth * (1.0 + weights_less_one))
+        ), 0.0 * weights_less_one if pointwise else weights_less_one
 
     def moved(modes: Modes) -> Array:
         """Return the static deflection of modes over x^2."""
-        felt, less = driven(modes)
-        return np.asarray((felt * (1.0 + less)) @ modes.compliance * x, dtype=np.float64)
+        modal_forces, weights_less_one = driven(modes)
+        return np.asarray(
+            (modal_forces * (1.0 + weights_less_one)) @ modes.compliance * x, dtype=np.float64
+        )
 
     def curved(modes: Modes) -> Array:
         """Return the change of the force by the static curvature of modes over x^3."""
@@ -165,13 +169,15 @@ def contact_of(
         growth = x / top * ((driven(modes)[0] * bracket) @ modes.compliance)
         return force_of_waves(np.array(law.modulus), a, growth)
 
-    felt, less = driven(plate.modes)
-    rest = sampled.depth - moved(plate.less)
-    static = curved(plate.less) if law.solved and not pointwise else None
-    if plate.more is not None:
-        rest += moved(plate.more)
-        static = None if static is None else static - curved(plate.more)
-    values = np.column_stack((sampled.force, felt, rest, less / x[:, None] ** 2))
+    modal_forces, weights_less_one = driven(plate.modes)
+    rest = sampled.depth - moved(plate.removed)
+    static = curved(plate.removed) if law.solved and not pointwise else None
+    if plate.added is not None:
+        rest += moved(plate.added)
+        static = None if static is None else static - curved(plate.added)
+    values = np.column_stack(
+        (sampled.force, modal_forces, rest, weights_less_one / x[:, None] ** 2)
+    )
     table = analysis @ values
     growths = by_growth(table)
     count = table.shape[1] // 2

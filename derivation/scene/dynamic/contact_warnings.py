@@ -73,8 +73,8 @@ def fall_warnings(
 ) -> tuple[str, ...]:
     """Warn of a sphere that its weight returns to the plate before it has risen clear of it.
 
-    A contact to which only the weight returns the sphere is another impact. Usually the plate has
-    come to rest before it.
+    A contact to which only the weight returns the sphere is another impact. Usually the plate no
+    longer vibrates then.
 
     Parameters
     ----------

@@ -91,7 +91,7 @@ def _stored(problem: DynamicProblem, radius: float, state: ImpactState) -> float
     rest = problem.a * radius * float(weights @ (at.force * at.depth_a))
     end = problem.contact.at(problem.a * np.array([radius]))
     q = problem.contact.modes.by_shape(state.q)
-    more = float((end.force * (1.0 + end.less[0]) - end.felt[0]) @ q)
+    more = float((end.force * (1.0 + end.weights_less_one[0]) - end.modal_forces[0]) @ q)
     return rest / (problem.force * problem.depth) + more / problem.force
 
 

@@ -1,9 +1,10 @@
-"""How little splits the first contact of an impact, or joins it with the next one.
+"""The smallest change that splits the first contact of an impact, or joins it with the next one.
 
-The duration of the first contact then jumps. Omitted modes and wave branches change the approach of
-sphere and plate by short waves: an elastic or plastic contact may split where the approach is least
-between two maxima, and join the next one if the largest gap between them closes. A viscoelastic
-face does not follow the sphere, so that the force and the time between contacts are compared.
+The duration of the first contact then changes by a jump. Omitted modes and wave branches change the
+approach of sphere and plate by short waves: an elastic or plastic contact may split where the
+approach is least between two maxima, and join the next one if the largest gap between them closes.
+A viscoelastic face does not follow the sphere; for it, the force and the time between contacts are
+compared instead.
 """
 
 import math
@@ -24,17 +25,17 @@ if TYPE_CHECKING:
 
 IRREGULAR = 2.0
 """Estimated error of a result by omitted modes over its change since half as many modes [1]."""
-LOOKS = 2001
+EVALUATIONS = 2001
 """Number of times at which a contact is evaluated."""
 NEARBY, CLOSE = 0.1, 21
-"""Time in which a change by more modes is alike, over the unit of time of the impact; number of
-times at which it is evaluated there."""
+"""Length of the interval in which changes by more modes are assumed to have equal size, over the
+unit of time of the impact; number of times at which they are evaluated there."""
 IN_GAP = 129
 """Number of times at which the gap between two contacts is evaluated."""
 
 
 class Place(NamedTuple):
-    """A place where the first contact may end, or continue.
+    """A time at which the first contact may end, or continue.
 
     Attributes
     ----------
@@ -54,16 +55,16 @@ class Place(NamedTuple):
     before: float = math.inf
 
 
-def minima(course: Array) -> NDArray[np.intp]:
-    """Return the places of the minima between two maxima."""
-    return 1 + np.flatnonzero((course[1:-1] <= course[:-2]) & (course[1:-1] < course[2:]))
+def minima(history: Array) -> NDArray[np.intp]:
+    """Return the indices of the minima between two maxima."""
+    return 1 + np.flatnonzero((history[1:-1] <= history[:-2]) & (history[1:-1] < history[2:]))
 
 
 def approach(run: "DynamicImpact", times: Array, contact: int = 0) -> Array:
     """Return the approach of sphere and plate [m] at times [s] in a contact and after it.
 
-    In contact it is that of a flat face and a sphere that touch each other with this radius. It is
-    negative while they are apart.
+    In contact it follows from the contact radius as for a flat face and a sphere. It is negative
+    while they are apart.
     """
     contacts = run.impact_history.contacts
     rows, yielding = run.rows(times), contacts[min(contact, len(contacts) - 1)].yielding
@@ -76,12 +77,12 @@ def approach(run: "DynamicImpact", times: Array, contact: int = 0) -> Array:
 def splits(run: "DynamicImpact") -> list[Place]:
     """Return where the first contact may end, in order."""
     first = run.inertia.contacts[0]
-    times = np.linspace(first.start, first.end, LOOKS)
-    course = approach(run, times) / run.max_indentation
-    before = np.maximum.accumulate(course)
+    times = np.linspace(first.start, first.end, EVALUATIONS)
+    history = approach(run, times) / run.max_indentation
+    before = np.maximum.accumulate(history)
     return [
-        Place(float(course[i]), float(times[i]), float(times[i]), float(before[i]))
-        for i in minima(course)
+        Place(float(history[i]), float(times[i]), float(times[i]), float(before[i]))
+        for i in minima(history)
     ]
 
 
@@ -89,9 +90,9 @@ def gaps(run: "DynamicImpact") -> Iterator[Place]:
     """Yield the gaps before the second and later contacts, which the first one may join."""
     for i, (before, after) in enumerate(pairwise(run.inertia.contacts)):
         times = np.linspace(before.end, after.start, IN_GAP)
-        course = approach(run, times, i) / run.max_indentation
-        k = int(np.argmin(course))
-        yield Place(-float(course[k]), float(times[k]), after.end)
+        history = approach(run, times, i) / run.max_indentation
+        k = int(np.argmin(history))
+        yield Place(-float(history[k]), float(times[k]), after.end)
 
 
 def decisive_change(run: "DynamicImpact") -> float:
@@ -102,7 +103,7 @@ def decisive_change(run: "DynamicImpact") -> float:
     """
     first, *others = run.inertia.contacts
     gap = (others[0].start - first.end) / (first.end - first.start) if others else math.inf
-    return min(run.least_force(run.courses[0]), gap)
+    return min(run.least_force(run.histories[0]), gap)
 
 
 def jump_since(run: "DynamicImpact", coarser: "DynamicImpact | None" = None) -> float:
@@ -150,7 +151,7 @@ def _changes(
 
 
 def _viscoelastic_jump(run: "DynamicImpact", coarser: "DynamicImpact") -> float:
-    """Return the same of a viscoelastic contact.
+    """Return the change of `jump_since` for a viscoelastic contact.
 
     It may split where a minimum of the force is below the error of the force there, and join the
     second contact if the gap is below the error of its ends. Both errors are estimated from a run
@@ -158,11 +159,11 @@ def _viscoelastic_jump(run: "DynamicImpact", coarser: "DynamicImpact") -> float:
     """
     first, *others = run.inertia.contacts[:2]
     known, *same = coarser.inertia.contacts[:2]
-    times, force = np.linspace(first.start, first.end, LOOKS), run.courses[0][P]
+    times, force = np.linspace(first.start, first.end, EVALUATIONS), run.histories[0][P]
     error = IRREGULAR * np.abs(force - coarser.rows(times)[P])
     echoes = np.where(times > echo_time(run.law.model), run.inertia.echo_ripple, 0.0)
     error = np.maximum(error, echoes * run.max_force)
-    # Before the force has exceeded its error for the first time, its minima mean nothing.
+    # Minima before the force first exceeds its error are not significant.
     certain = int(np.argmax(force > error))
     indices = minima(force)
     indices = indices[(force[indices] <= error[indices]) & (indices > certain)]

@@ -17,14 +17,15 @@ AT_ONCE = 4_000_000
 FAST = 0.1
 """Sum of the amplitudes of modes over the gap below which they cannot close it."""
 RECOVERED = 20.0
-"""Time over A_v after which a face counts as recovered: its depth has decayed to 2e-6."""
-LOOK, LOOKS = 0.06, 200.0
+"""Time over A_v after which a face counts as recovered: its depth has decayed to 2e-6 of the
+initial one."""
+MODE_WORK, BLOCK_WORK = 0.06, 200.0
 """Work of an evaluation of a mode, and additional work of a block of evaluations."""
 SINCE = 1e-5
 """Part of the flight, or of A_v, in which the speed of a face that recovers is measured."""
 
 
-def meeting(
+def next_contact(
     problem: DynamicProblem, after: ImpactState, radius: float, most: float = math.inf
 ) -> tuple[float, float, float]:
     """Return the time from separation to the next contact, its radius at the start, and the work.
@@ -42,19 +43,19 @@ def meeting(
     Raises
     ------
     IncompleteError
-        If neither is found within `BLOCKS` blocks or the largest work.
+        If the next contact is not found, nor excluded, within `BLOCKS` blocks or the largest work.
     """
     omega, state, begin = problem.omega, after, 0.0
     reach = float(np.sum(np.hypot(state.q, state.q_dot / omega)))
     block = max(2, min(BLOCK, AT_ONCE // omega.size))
     t = STEP / float(np.max(omega)) * np.arange(block + 1)
     free = FreeMotion(np.outer(t, omega), problem.damping_ratio)
-    work, each = 0.0, LOOKS + LOOK * free.phase.size
+    work, each = 0.0, BLOCK_WORK + MODE_WORK * free.phase.size
     for _ in range(BLOCKS * (BLOCK // block)):
         if work and work + each > most:
             break
         work += each
-        clear = _clear(problem, state)
+        clear = _time_apart(problem, state)
         begin, state = begin + clear, problem.flown(state, clear)
         bent = free.sin * (state.q_dot / omega) - free.by_q * state.q
         into = state.approach + state.velocity * t + 0.5 * problem.weight * t * t
@@ -62,15 +63,15 @@ def meeting(
         opening = free.cos @ state.q_dot - free.sin @ (state.q * omega) - state.velocity
         opening -= problem.weight * t
         if problem.retardation_time:
-            into -= _pressed(problem, np.add(begin, t), radius, np.add(state.q, bent))
+            into -= _remaining_depth(problem, np.add(begin, t), radius, np.add(state.q, bent))
         turned = (opening[:-1] < 0.0) & (opening[1:] > 0.0)  # the gap is smallest in between
         for k in np.flatnonzero((into[1:] >= 0.0) | turned):
             low, high = begin + float(t[k]), begin + float(t[k + 1])
             if into[k + 1] < 0.0:
                 high = rise(lambda t: problem.flown(after, t).separation_speed, low, high)
-            if _into(problem, after, high, radius) >= 0.0:
-                met = rise(lambda t: _into(problem, after, t, radius), low, high)
-                return met, float(_recovered(problem, np.array([met]), radius)[0]), work
+            if _overlap(problem, after, high, radius) >= 0.0:
+                met = rise(lambda t: _overlap(problem, after, t, radius), low, high)
+                return met, float(_recovering_radius(problem, np.array([met]), radius)[0]), work
         begin, state = begin + float(t[-1]), problem.flown(state, float(t[-1]))
         if -state.displacement > reach and state.velocity <= 0.0:
             return math.inf, 0.0, work
@@ -95,15 +96,15 @@ def meeting_speed(problem: DynamicProblem, after: ImpactState, radius: float, t:
     """
     if not problem.retardation_time:
         return -problem.flown(after, t).separation_speed
-    # They may also meet again at once.
+    # They may also touch again immediately.
     step = SINCE * (min(t, problem.retardation_time) or problem.retardation_time)
     t = max(t, step)
-    closed = _into(problem, after, t, radius) - _into(problem, after, t - step, radius)
+    closed = _overlap(problem, after, t, radius) - _overlap(problem, after, t - step, radius)
     return closed / step
 
 
-def _clear(problem: DynamicProblem, state: ImpactState) -> float:
-    """Return a time in which sphere and plate cannot meet, from the slow modes.
+def _time_apart(problem: DynamicProblem, state: ImpactState) -> float:
+    """Return a time during which sphere and plate cannot touch, from the slow modes.
 
     The amplitudes of the fast modes add up to a fraction of the gap. The remaining depth of a
     viscoelastic face only increases the gap, and damping only reduces amplitudes.
@@ -124,24 +125,26 @@ def _clear(problem: DynamicProblem, state: ImpactState) -> float:
     return float(t[max(int(near[0]) - 1, 0)]) if near.size else float(t[-1])
 
 
-def _into(problem: DynamicProblem, after: ImpactState, t: float, radius: float) -> float:
+def _overlap(problem: DynamicProblem, after: ImpactState, t: float, radius: float) -> float:
     """Return the overlap of sphere and face at a time after separation; negative for a gap."""
     state = problem.flown(after, t)
     if not problem.retardation_time:
         return state.approach
-    return state.approach - float(_pressed(problem, np.array([t]), radius, state.q[None])[0])
+    return state.approach - float(
+        _remaining_depth(problem, np.array([t]), radius, state.q[None])[0]
+    )
 
 
-def _pressed(problem: DynamicProblem, t: Array, radius: float, q: Array) -> Array:
+def _remaining_depth(problem: DynamicProblem, t: Array, radius: float, q: Array) -> Array:
     """Return the remaining depth of the face after a viscoelastic contact."""
-    at = problem.at(problem.a * _recovered(problem, t, radius))
+    at = problem.at(problem.a * _recovering_radius(problem, t, radius))
     by_shape = problem.contact.modes.by_shape
     lagging = by_shape(problem.lagging(radius, t)[0])
-    moved = np.sum(lagging + at.less * (by_shape(q) + lagging), axis=1)
+    moved = np.sum(lagging + at.weights_less_one * (by_shape(q) + lagging), axis=1)
     return at.depth / problem.depth + np.asarray(moved, dtype=np.float64)
 
 
-def _recovered(problem: DynamicProblem, t: Array, radius: float) -> Array:
+def _recovering_radius(problem: DynamicProblem, t: Array, radius: float) -> Array:
     """Return the radius of the face after a time without force: P_e decays as exp(-t/A_v)."""
     none = np.zeros_like(t)
     if not problem.retardation_time or not np.any(t < RECOVERED * problem.retardation_time):

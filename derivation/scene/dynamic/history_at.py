@@ -60,7 +60,8 @@ def rows_of(problem: DynamicProblem, touching: ContactRun, t: Array) -> Array:
     """Return the rows in a contact and in the flight after it, at times in problem units."""
     found = np.zeros((C + 1, t.size))
     pieces, known = touching.pieces, _computed(touching)
-    # A viscoelastic contact ends with a large radius, which a rounded end also has.
+    # A viscoelastic contact ends with a large radius, also at a time that rounding moves beyond its
+    # end.
     inside = t <= known * (1.0 + ROUNDED)
     starts, lengths = np.array([(one.element.x, one.element.length) for one in pieces]).T
     since = np.maximum(t - touching.start, 0.0) + starts[0] ** ONSET

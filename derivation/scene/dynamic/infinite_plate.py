@@ -31,12 +31,12 @@ RADIATING, CERTAIN = 1.0, 0.8
 """Zener parameter from which contacts are so long that Zener's equation gives the first width; the
 contact time over that of this equation is larger: 0.9 to 0.98 in random scenes."""
 PART, FEWEST = 0.1, 8
-"""Part of the work of all runs that a run with a quarter of the modes may take, which takes about a
-twentieth of the work of the first run; least number of its modes."""
+"""Part of the allowed work of all runs that a run with a quarter of the modes may take (it takes
+about a twentieth of the work of the first run); least number of its modes."""
 
 
 def widened(law: ContactLaw, budget: Budget) -> tuple[ContactLaw, ImpactHistory | None]:
-    """Return the law with a plate so wide that it is infinite in a run with few modes; this run.
+    """Return the law with a plate that is wide enough in a run with few modes, and this run.
 
     Raises
     ------
@@ -56,9 +56,9 @@ def widened(law: ContactLaw, budget: Budget) -> tuple[ContactLaw, ImpactHistory 
             run = run_with(lowest, count, budget, time_tolerance(LOOSE), FEWER, most=PART * WORK)
         except EndlessError:
             raise
-        except SceneError:  # so few modes may bend the plate more than the sphere is curved
+        except SceneError:  # with so few modes the plate may be more curved than the sphere
             return law, None
-        if not edge_heard(run):
+        if not wave_returned(run):
             return law, run.impact_history if run.inertia.complete else None
         law = wider(law, first, run)
 
@@ -79,7 +79,7 @@ def wider(law: ContactLaw, first: float, run: DynamicImpact) -> ContactLaw:
 
 
 def _wide_enough(law: ContactLaw) -> ContactLaw:
-    """Return the law with a plate wide enough for the contact time of Zener's equation."""
+    """Return the law with a plate wide enough for the contact time by Zener's equation."""
     model, number, unit = law.model, zener_number(law.model), unit_time(law)
     if number < RADIATING:
         return law
@@ -101,7 +101,7 @@ def _too_long(time: float) -> SceneError:
     )
 
 
-def edge_heard(run: DynamicImpact) -> bool:
+def wave_returned(run: DynamicImpact) -> bool:
     """Return whether a wave may have returned from the edge before the last contact ended."""
     model, problem = run.law.model, run.impact_history.problem
     return problem.T * run.impact_history.contacts[-1].end > echo_time(model)

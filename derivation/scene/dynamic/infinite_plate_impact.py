@@ -1,4 +1,4 @@
-"""Integrates Zener's equation of an elastic impact on an infinite thin plate, with weight."""
+"""Integrates Zener's equation of an elastic impact on an infinite thin plate, with gravity."""
 
 import math
 from functools import lru_cache
@@ -30,15 +30,16 @@ def infinite_plate_impact(
     weight
         Gravitational acceleration, in units of v0/T.
     longest
-        Time after which the contact is considered endless, in units of T; by default longer than
-        any contact without weight.
+        Time after which the contact is assumed never to end, in units of T; by default longer than
+        any contact without gravity.
 
     Returns
     -------
     float
-        Contact time in units of T; infinite if the contact is endless, as the weight may make it.
+        Contact time in units of T; infinite if the contact does not end, which is possible with
+        gravity.
     float
-        Coefficient of restitution [1]; 0 if the contact is endless.
+        Coefficient of restitution [1]; 0 if the contact does not end.
 
     Raises
     ------

@@ -15,7 +15,7 @@ def integration_error(history: ImpactHistory) -> float:
 
 
 def error_after(problem: DynamicProblem, tolerance: float, contacts: int = 1) -> float:
-    """Return that bound; it is larger for the less accurate force of a viscoelastic contact.
+    """Return the bound; it is larger for a viscoelastic contact, whose force is less accurate.
 
     Every contact adds errors, and each contact amplifies the errors of those before it.
     """

@@ -39,10 +39,11 @@ Parts = tuple[tuple[slice, slice, Indices, Indices], ...]
 SMALL = 1e-6
 """Contact radius over plate radius and thickness at which a contact counts as a point."""
 UNMOVED = 1e-30
-"""Strength W rho h r of a wave below which it does not move the contact face: it is exactly 0 for
-some waves, as far as rounding allows."""
+"""Strength W rho h r of a wave below which the wave does not move the contact face. Some waves have
+the strength 0, which rounding may change."""
 MOST_BELOW_CUTOFF = 100_000
-"""Largest number of bending modes of a clamped or simply supported plate, computed in a second."""
+"""Largest number of bending modes of a clamped or simply supported plate; they are computed in 1
+s."""
 
 
 @dataclass(frozen=True)
@@ -151,13 +152,13 @@ class Modes:
 class ModalPlate(NamedTuple):
     """The modes of the plate, and the modes that the quasi-static remainder depends on.
 
-    The remainder is the law with the paper's edge, minus the static deflection of `less` (modes of
-    that edge), plus the static deflection of `more` (modes of the edge of the scene).
+    The remainder is the law with the paper's edge, minus the static deflection of `removed` (modes
+    of that edge), plus the static deflection of `added` (modes of the edge of the scene).
     """
 
     modes: Modes
-    less: Modes
-    more: Modes | None
+    removed: Modes
+    added: Modes | None
 
 
 @lru_cache(maxsize=8)
@@ -286,16 +287,16 @@ def _held_plate(law: ContactLaw, count: int) -> ModalPlate:
     if model.inertia.branches == "all":
         highest = float(free.root[-1])
         higher = _higher(model, partner, highest)
-        less = _modes(model, _branches(partner, higher, highest))
+        removed = _modes(model, _branches(partner, higher, highest))
         free = _branches(free, higher, highest, moving)
     else:
-        less = _modes(model, partner)
+        removed = _modes(model, partner)
         free = _first(free, count, moving)
     modes = _modes(model, _joined(_first(held, moving), free), waves)
     if moving == known:
-        return ModalPlate(modes, less, None)
+        return ModalPlate(modes, removed, None)
     rest = _first(held, known, moving)
-    return ModalPlate(modes, less, _modes(model, rest, _some(every, slice(moving, known))))
+    return ModalPlate(modes, removed, _modes(model, rest, _some(every, slice(moving, known))))
 
 
 def _first(shapes: _Shapes, end: int, begin: int = 0) -> _Shapes:

@@ -31,8 +31,8 @@ REGULAR, QUICK = 2.2, 16.0
 """Largest expected factors by which twice as many modes reduce an error: of the contact time, which
 decreases regularly (see `wave_motion.LATE`) with modes shorter than the thickness; of others."""
 FIRST = 4000.0
-"""Largest expected factor if half as many modes were slower than the contact: in 84 random impacts
-the error then decreased by factors of up to 2300, in single contacts up to 170."""
+"""The same factor if half as many modes were all slower than the contact: in 84 random impacts the
+error then decreased by factors of up to 2300, with a single contact by up to 170."""
 SHORT = 4.0
 """Largest wave number times half the thickness from which the contact time converges regularly."""
 CALMED = {"A0": 22.0, "all": 6.5}
@@ -40,30 +40,34 @@ CALMED = {"A0": 22.0, "all": 6.5}
 22.1 and 6.2 between runs of 13 random impacts, often below 2 with all branches."""
 RIPPLE, DECAY = 1.25, 2.0
 """Estimated error of the largest force or radius over its ripple since half as many modes, and a
-factor of it if the ripple decreases fast: `DECAY` times the decrease q since the runs before. If it
-goes on, all further ripples together are q/(1 - q) of the last."""
-NEARBY, LOOKS = 0.1, 1000
-"""Time in which the ripple of the force changes alike, because its phase is arbitrary, over the
-unit of time of the impact; number of times in this unit at which the force is compared."""
+factor of it if the ripple decreases fast: `DECAY` times the decrease q since the runs before. If
+this decrease continues, all further ripples together are q/(1 - q) of the last."""
+NEARBY, TIMES_PER_UNIT = 0.1, 1000
+"""Length of the interval in which changes of the ripple are assumed to have equal size, because its
+phase is arbitrary, over the unit of time of the impact; number of times per unit at which the force
+is compared."""
 BEFORE = 1.0 - 1e-12
-"""A time just before an end, with all rounding errors, over this end."""
+"""A time just before the end of a contact over the time of this end, so that rounding cannot move
+it beyond."""
 LINEAR = 0.2
-"""Last part of this time in which the force of a contact falls in the same way until its end."""
+"""Last part of this interval, in which the force of a contact decreases steadily until its end."""
 ONCE = 5.0
-"""Error by omitted modes over the allowed one up to which twice as many modes may be enough."""
+"""Error by omitted modes over the allowed one, up to which twice as many modes may be
+sufficient."""
 COMPARED, STEADY, SLOWEST = 3, 1.3, math.sqrt(2.0)
 """Number of runs that show how fast an error decreases; largest expected factor by which it then
-decreases faster; the slowest decrease that goes on when modes are doubled, of the contact time.
-In random scenes, none of the 46 simulations with at least three such runs that met their tolerance
-would have ended early, and 17 of those that did not."""
+decreases faster; the smallest factor by which the contact time is expected to improve if modes are
+doubled. In random scenes, none of the 46 simulations with at least three such runs that met their
+tolerance would have ended early, and 17 of those that did not."""
 DEARER, DEAREST = {"A0": 2.0, "all": 4.0}, 4.0
-"""Least factor of the work of a run with twice as many bending modes; the largest one with A0."""
+"""Smallest factor by which the work grows if the bending modes are doubled; the largest one with
+the branch A0 alone."""
 QUICKLY = 2e5
-"""Expected work of the next run up to which it is made although short echoes exceed the tolerance:
-a tenth of a second, in which other results may meet it."""
+"""Expected work of the next run up to which this run is done although short echoes exceed the
+tolerance: a tenth of a second. The other results may then meet the tolerance."""
 
 
-def judged(rough: DynamicImpact, found: DynamicImpact) -> DynamicImpact:
+def compare(rough: DynamicImpact, found: DynamicImpact) -> DynamicImpact:
     """Return the finer run with the relative change of each result since the coarser run."""
     pairs = zip(found.numbers, rough.numbers, strict=True)
     time, depth, force, radius, speed = (abs(new - old) / abs(new) for new, old in pairs)
@@ -84,9 +88,9 @@ def judged(rough: DynamicImpact, found: DynamicImpact) -> DynamicImpact:
 
 
 def _first_change(rough: DynamicImpact, found: DynamicImpact) -> float:
-    """Return the largest relative change of the first contact [1]; of a single contact, NaN.
+    """Return the largest relative change of the first contact [1]; NaN if it is the only one.
 
-    Its duration does not depend on later contacts, which may be far more sensitive.
+    The first contact does not depend on later ones, which may be far more sensitive.
     """
     old, new = rough.inertia.contacts[0], found.inertia.contacts[0]
     if len(rough.inertia.contacts) == 1 == len(found.inertia.contacts):
@@ -96,32 +100,32 @@ def _first_change(rough: DynamicImpact, found: DynamicImpact) -> float:
 
 
 def _ripple(rough: DynamicImpact, found: DynamicImpact) -> tuple[float, float]:
-    """Return how far the largest force and radius may be off if their courses are, over them [1].
+    """Return relative errors of largest force and radius by the changes of their histories [1].
 
     Waves that return during a contact make its force ripple. The ripple changes with the number of
-    modes at all times, while the maximum may agree by chance. The largest value of a course known
-    up to e(t) lies between the maxima of the course less e(t) and of the course plus e(t). The
+    modes at all times, while the maximum may agree by chance. The largest value of a history known
+    up to e(t) lies between the maxima of the history less e(t) and of the history plus e(t). The
     cube of the radius is compared: it is as smooth as the force where a contact begins and ends.
     """
     fine, change = [], []
     for old, new in _same_times(rough, found):
         fine.append(_compared(found.rows(new)))
         change.append(np.abs(fine[-1] - _compared(rough.rows(old))))
-    courses, changes = np.hstack(fine), np.hstack(change)
+    histories, changes = np.hstack(fine), np.hstack(change)
     for part, width in _alike(found, fine):
         changes[:, part] = _largest_nearby(changes[:, part], width)
-    largest = np.max(courses, axis=1)
-    above, below = np.max(courses + changes, axis=1), np.max(courses - changes, axis=1)
+    largest = np.max(histories, axis=1)
+    above, below = np.max(histories + changes, axis=1), np.max(histories - changes, axis=1)
     force, cube = np.maximum(above / largest - 1.0, 1.0 - below / largest).tolist()
     # The cube root of 1 - x decreases more than that of 1 + x increases.
     return force, 1.0 - math.cbrt(1.0 - cube) if cube < 1.0 else cube
 
 
 def _ripple_of_end(rough: DynamicImpact, found: DynamicImpact) -> float:
-    """Return how far the end of the first contact may be off, over its duration [1].
+    """Return the error of the end of the first contact by such changes, over its duration [1].
 
-    At its end the square of the radius falls linearly, and so does the force of a viscoelastic
-    contact. Their ripple moves this end, where it may vanish by chance.
+    At its end the square of the radius decreases linearly, and so does the force of a viscoelastic
+    contact. Their ripple moves this end. The ripple at the end itself may vanish by chance.
     """
     end, unit = found.inertia.contacts[0].end, found.impact_history.problem.T
     part = min(NEARBY, 0.5 * end / unit)
@@ -129,7 +133,7 @@ def _ripple_of_end(rough: DynamicImpact, found: DynamicImpact) -> float:
     both = min(end, rough.inertia.contacts[0].end)
     if both <= end - width:  # the duration itself changes by more
         return 0.0
-    times = np.linspace(end - width, both, 2 + math.ceil(part * LOOKS))
+    times = np.linspace(end - width, both, 2 + math.ceil(part * TIMES_PER_UNIT))
     change = np.max(np.abs(_falling(found, times) - _falling(rough, times)))
     late = LINEAR * width
     rate = float(_falling(found, np.array([end - late]))[0]) / late
@@ -137,28 +141,31 @@ def _ripple_of_end(rough: DynamicImpact, found: DynamicImpact) -> float:
 
 
 def _falling(run: DynamicImpact, times: Array) -> Array:
-    """Return what falls linearly at the end of a contact, at times [s]."""
+    """Return the quantity that decreases linearly at the end of a contact, at times [s]."""
     rows = run.rows(times)
-    course = rows[P] if run.law.viscous else np.maximum(rows[C], 0.0) ** 2
-    return np.asarray(course)
+    history = rows[P] if run.law.viscous else np.maximum(rows[C], 0.0) ** 2
+    return np.asarray(history)
 
 
-def _alike(found: DynamicImpact, courses: list[Array]) -> list[tuple[slice, int]]:
-    """Return parts of the course, and over how many times its ripple changes alike in each.
+def _alike(found: DynamicImpact, histories: list[Array]) -> list[tuple[slice, int]]:
+    """Return parts of the history, and the number of times over which each has equal changes.
 
-    A plastic contact unloads far below its largest force before a ripple, which is larger there
-    because the contact is stiffer, could return it to this force.
+    During unloading a plastic contact is stiffer and its ripple larger. It cannot reach the largest
+    force again, because the force has decreased too far.
 
     Parameters
     ----------
-    courses
+    histories
         Force and cube of the radius of each contact.
     """
-    whole, starts = round(NEARBY * LOOKS), np.cumsum([0, *(one.shape[1] for one in courses)])
+    whole, starts = (
+        round(NEARBY * TIMES_PER_UNIT),
+        np.cumsum([0, *(one.shape[1] for one in histories)]),
+    )
     if found.impact_history.problem.yielding is None:
         return [(slice(None), whole)]
-    largest = int(np.argmax([np.max(one[0]) for one in courses]))
-    peak = int(starts[largest] + np.argmax(courses[largest][0])) + 1
+    largest = int(np.argmax([np.max(one[0]) for one in histories]))
+    peak = int(starts[largest] + np.argmax(histories[largest][0])) + 1
     end = int(starts[largest + 1])
     return [(slice(None, peak), whole), (slice(peak, end), 1), (slice(end, None), whole)]
 
@@ -171,10 +178,10 @@ def _compared(rows: Array) -> Array:
 def _same_times(rough: DynamicImpact, found: DynamicImpact) -> Iterator[tuple[Array, Array]]:
     """Yield times [s] in both runs, contact by contact, at which to compare them.
 
-    Two contacts that overlap each other the most are the same one, and are compared from their
-    starts on, the later end of one with the end of the other: a viscoelastic contact ends with a
-    large radius. Any other contact of either run, for example a short one that the other run
-    misses, is compared with what the other run does at that time.
+    Two contacts that overlap most are assumed to correspond. They are compared from their starts
+    on. Beyond the end of the coarser one its state at the end is used, because a viscoelastic
+    contact ends with a large radius. Any other contact of either run, for example a short one that
+    the other run misses, is compared with the other run at the same times.
     """
     unit = found.impact_history.problem.T
     overlaps = _overlaps(rough, found)
@@ -184,7 +191,7 @@ def _same_times(rough: DynamicImpact, found: DynamicImpact) -> Iterator[tuple[Ar
         if overlaps[i, j] > 0.0 and int(np.argmax(overlaps[i])) == j
     }
     for j, new in enumerate(found.inertia.contacts):
-        times = _looks(new.start, BEFORE * new.end, unit)
+        times = _times_between(new.start, BEFORE * new.end, unit)
         if j not in partners:
             yield times, times
             continue
@@ -192,7 +199,7 @@ def _same_times(rough: DynamicImpact, found: DynamicImpact) -> Iterator[tuple[Ar
         yield np.minimum(known.start + (times - new.start), BEFORE * known.end), times
     for i, old in enumerate(rough.inertia.contacts):
         if i not in partners.values():
-            times = _looks(old.start, old.end, unit)
+            times = _times_between(old.start, old.end, unit)
             yield times, times
 
 
@@ -204,9 +211,9 @@ def _overlaps(rough: DynamicImpact, found: DynamicImpact) -> Array:
     return np.asarray(np.minimum.outer(old[:, 1], new[:, 1]) - start)
 
 
-def _looks(start: float, end: float, unit: float) -> Array:
-    """Return times between two others, `LOOKS` in each unit of time."""
-    return np.linspace(start, end, 2 + math.ceil((end - start) / unit * LOOKS))
+def _times_between(start: float, end: float, unit: float) -> Array:
+    """Return times between two others, `TIMES_PER_UNIT` in each unit of time."""
+    return np.linspace(start, end, 2 + math.ceil((end - start) / unit * TIMES_PER_UNIT))
 
 
 def _largest_nearby(values: Array, count: int) -> Array:
@@ -236,7 +243,7 @@ def largest_change(one: DynamicImpact, other: DynamicImpact) -> DynamicImpact:
     return replace(one, inertia=replace(one.inertia, mode_convergence=change, first_change=first))
 
 
-def unjudged(found: DynamicImpact) -> DynamicImpact:
+def without_estimate(found: DynamicImpact) -> DynamicImpact:
     """Return a run without an error estimate for its omitted modes."""
     unknown = replace(found.inertia, mode_convergence=UNKNOWN, earlier_change=NONE)
     return replace(found, inertia=unknown)
@@ -259,7 +266,7 @@ def unreachable(
         Expected work of the run with twice as many.
     """
     found = runs[-1]
-    if found.inertia.recounted:  # the next run may have the same contacts, and agree
+    if found.inertia.recounted:  # the next run may have the same number of contacts
         return False
     next_work = work
     branches = "all" if law.model.inertia.branches == "all" else "A0"
@@ -294,7 +301,7 @@ def _least_work(run: DynamicImpact, law: ContactLaw, count: int) -> float:
 
 
 def attainable(run: DynamicImpact) -> InertiaDetails:
-    """Return the details of a run with the error by short echoes that more modes leave."""
+    """Return the details of a run with the error by short echoes that remains with more modes."""
     law, history = run.law, run.impact_history
     if law.model.inertia.modes or not run.inertia.echo_error:
         return run.inertia
@@ -313,7 +320,7 @@ def _with_modes(run: DynamicImpact, count: int) -> InertiaDetails:
 
 
 def _after(runs: Sequence[DynamicImpact], output: str, doublings: int) -> float:
-    """Return the least expected error of an output after more doublings of the number of modes [1].
+    """Return the least expected error of an output after further doublings of the modes [1].
 
     It follows from the last three runs, and is 0 if there are fewer with the same contacts.
     """
@@ -337,9 +344,9 @@ def echoes_matter(run: DynamicImpact, reach: Reach) -> bool:
 
 
 def jump_matters(run: DynamicImpact, reach: Reach) -> bool:
-    """Return whether a jump of the contact time exceeds the tolerance, and more modes may decide.
+    """Return whether more modes may exclude a jump of the contact time beyond the tolerance.
 
-    They do not if the omitted branches alone may cause it.
+    They cannot if the omitted branches alone may cause it.
     """
     if "contact_time" not in reach.outputs or run.inertia.jump <= reach.need:
         return False

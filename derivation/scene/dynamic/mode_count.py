@@ -34,9 +34,9 @@ def branching(law: ContactLaw, branches: str) -> ContactLaw:
 def finer(law: ContactLaw, count: int) -> int:
     """Return the number of bending modes in the run after one with a number of them.
 
-    It is twice as many, or one more so that exactly one of both is even: the share of the last mode
-    in the waves that return from the edge to the axis has alternating signs, and the numbers n and
-    2n, both even, would agree although both are wrong.
+    It is twice as many, or one more so that exactly one of both is even: the contribution of the
+    last mode to the waves that return from the edge to the axis has alternating signs, and runs
+    with n and 2n modes, both even, would agree although both are wrong.
     """
     return law.model.inertia.modes or 2 * count + 1 - count % 2
 
@@ -79,7 +79,7 @@ def affordable(law: ContactLaw) -> int:
     if law.model.inertia.modes:
         return count
     least = count // 2 + 1
-    while count > least and oscillators(law, 2 * count) > MANY:
+    while count > least and mode_total(law, 2 * count) > MANY:
         count = max(least, 9 * count // 10)
     return count
 
@@ -99,8 +99,8 @@ def check_resolving(law: ContactLaw) -> None:
     Raises
     ------
     SceneError
-        If its modes are slower than the contact; the message names the least number, and twice
-        as many, with which simulations end that choose it and need no more.
+        If its modes are slower than the contact. The message names the smallest sufficient number,
+        or twice as many: an automatic simulation of this number ends with twice as many.
     """
     modes = law.model.inertia.modes
     if not modes or fast(law, modes):
@@ -119,7 +119,7 @@ def check_resolving(law: ContactLaw) -> None:
 
 def followed(law: ContactLaw, count: int) -> bool:
     """Return whether the modes are fast enough and not too many, or given by the scene."""
-    afforded = oscillators(law, count) <= FURTHER * MANY
+    afforded = mode_total(law, count) <= FURTHER * MANY
     return bool(law.model.inertia.modes) or (afforded and fast(law, count))
 
 
@@ -144,7 +144,7 @@ def check_followed(law: ContactLaw, count: int) -> None:
     )
 
 
-def oscillators(law: ContactLaw, count: int) -> float:
+def mode_total(law: ContactLaw, count: int) -> float:
     """Return the estimated number of modes of all included branches up to the same frequency.
 
     With all branches these are the modes whose wave numbers along and across the plate, of shear
@@ -169,5 +169,5 @@ def beyond_limits(law: ContactLaw, count: int, work: float, near: bool) -> bool:
         Whether another doubling may be sufficient, so that the limits are higher.
     """
     more = FURTHER if near else 1.0
-    many = oscillators(law, 2 * count) > more * MANY or 2 * count > more * MODES
+    many = mode_total(law, 2 * count) > more * MANY or 2 * count > more * MODES
     return many or work > more * WORK

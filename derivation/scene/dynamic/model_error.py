@@ -3,9 +3,9 @@
 The recorded simulations are independent of the model (see `derivation.checks.finite_elements`). For
 each result the model error is the largest difference between program and finite elements, plus the
 error of the finite elements; the error bound of the program is not subtracted, because that of
-another scene may be smaller. Short and wide contacts, where thickness resonances make the force
-rough and finite elements less accurate, count separately. So do thick plates, on which the edge
-matters more, and plates with a negative Poisson's ratio.
+another scene may be smaller. Short and wide contacts, in which thickness resonances make the force
+rough and finite elements less accurate, are treated separately, and so are thick plates, on which
+the edge matters more, and plates with a negative Poisson's ratio.
 """
 
 import json
@@ -23,17 +23,18 @@ from derivation.scene.scene import OUTPUTS
 from generated.arrays import Double as Array
 
 SHORT, WIDE = 4.9, 0.21
-"""Contact time over the time of a thickness echo below which a contact is short, and contact radius
-over thickness, on the plate or on a half-space, above which it is wide. Other contacts are within
-the range of recorded ones, from 5 and up to 0.2, in which waves hardly make the force rough."""
+"""Contact time over the time of a reflection across the thickness, below which a contact is short,
+and contact radius over thickness, on the plate or on a half-space, above which it is wide. Other
+contacts are within the range of recorded ones, from 5 and up to 0.2, in which waves hardly make the
+force rough."""
 CONVERGED, ROUGHLY = 1e-3, 1e-2
-"""Largest finite-element error of comparisons that count, and the same for rough contacts, thick
+"""Largest finite-element error of comparisons that are used, and the same for rough contacts, thick
 plates and a negative Poisson's ratio."""
 RESOLVED, ROUGHLY_RESOLVED = 1e-2, 5e-2
 """The same of the largest tensile stress, which depends more on the contact of single nodes."""
 PAPER = "paper"
 THIN, ROUNDED = 0.3, 1e-12
-"""Thickness over radius up to which all simulations count; rounding error of such a ratio [1]."""
+"""Thickness over radius up to which all simulations are used; rounding error of this ratio [1]."""
 FLOOR = 1e-3
 """Smallest model error that is stated, the accuracy of the finite elements in all results."""
 
@@ -62,7 +63,7 @@ class _Simulation(NamedTuple):
     stress: float
 
     def counts(self, model: Model, rough: bool, thickest: float) -> bool:
-        """Return whether it counts for a model, with plates up to a thickness over radius."""
+        """Return whether it is used for a model, with plates up to a thickness over radius."""
         return (
             (rough or not self.rough)
             and (model.edge != PAPER or not self.held or self.thickness <= THIN)
@@ -100,9 +101,9 @@ def stress_error(model: Model, a: float, contact_time: float) -> float:
 
 
 def _similar(model: Model, a: float, contact_time: float) -> list[_Simulation]:
-    """Return the recorded simulations that count for an impact.
+    """Return the recorded simulations that are used for an impact.
 
-    Those of thick plates count up to the next recorded thickness.
+    Those of thick plates are used up to the next recorded thickness.
     """
     rough, thickness = _is_rough(model, a, contact_time), 2.0 * model.eta
     recorded = {case.thickness for case in _cases()}
@@ -112,11 +113,11 @@ def _similar(model: Model, a: float, contact_time: float) -> list[_Simulation]:
 
 
 def curvature_error(change: float) -> float:
-    """Return the relative error of the contact radius that the curvature of the plate changes [1].
+    """Return the relative error of the contact radius from its change by the curvature [1].
 
-    Pressure on a half-space, as assumed for this change, differs from that of the plate. Between
-    two static plates the formula was wrong by up to 0.4 % of changes of 2 %, 4 % of 10 % and 90 %
-    of 50 %. The pressure at the centre changes by up to three times as much.
+    The change is computed with the pressure on a half-space, which differs from that on the plate.
+    Between two static plates the formula was wrong by up to 0.4 % of changes of 2 %, 4 % of 10 %
+    and 90 % of 50 %. The pressure at the centre changes by up to three times as much.
     """
     return 3.0 * abs(change) * (0.01 + 2.0 * abs(change))
 
@@ -124,8 +125,8 @@ def curvature_error(change: float) -> float:
 def end_error(force: Array, error: float) -> float:
     """Return the relative error of a viscoelastic contact's duration by that of its force [1].
 
-    Such a contact ends where its force vanishes, which may decrease slowly before: the error is the
-    part of the contact in which the force is below its error.
+    Such a contact ends when its force vanishes, and the force may decrease slowly before. The error
+    is the part of the contact in which the force is below its error.
 
     Parameters
     ----------
@@ -174,7 +175,7 @@ def _cases() -> tuple[_Simulation, ...]:
         rough = _rough(
             parameters["contact_time_over_echo"], parameters["contact_radius_over_thickness"]
         )
-        # Where the differences are larger, less accurate elements show them, too.
+        # Larger differences are also visible with less accurate elements.
         roughly = rough or auxetic or thickness > THIN
         values, elements = program["values"], row["elements"]
         errors: dict[str, float] = {

@@ -18,7 +18,7 @@ PHASE = 0.75
 SAFE = 0.1
 """Part of the tolerance for which elements that approach the end of a contact are chosen."""
 WITHIN = 0.5
-"""Remaining time by the approach over that by the radius below which the latter is used."""
+"""Remaining time from the approach over that from the radius, below which the latter is used."""
 OWN = 1e3
 """Factor of the tolerance for the radius, relative to the largest value in its own element."""
 ROUGH = 1e2
@@ -41,15 +41,15 @@ def solved(
     else:
         guess = np.zeros(n) if radius else _onset(problem, n, length, -start.separation_speed)
     made = element(problem, n, x, length, start, radius, guess, enough)
-    if made is None and before:  # an oscillating slope is no guess beyond its own element
+    if made is None and before:  # an oscillating slope cannot be extrapolated
         made = element(problem, n, x, length, start, radius, np.zeros(n), enough)
     return made
 
 
-def judged(
+def error_and_scales(
     problem: DynamicProblem, made: TimeElement, scale: Array, tolerance: float
 ) -> tuple[float, float, Array]:
-    """Return the error of an element, the change of length that meets the tolerance, and scales.
+    """Return the error of an element, the factor for the next length, and scales.
 
     The scales are the largest values of each quantity so far, shape (LOST, 1).
     """
@@ -64,12 +64,12 @@ def judged(
     return *change_of_length((sizes / unit).max(axis=0), tolerance), largest
 
 
-def next_length(made: TimeElement, x: float, change: float) -> float:
-    """Return the length of the element after `made`, which ends at x.
+def next_length(last: TimeElement, x: float, change: float) -> float:
+    """Return the length of the element after `last`, which ends at x.
 
     Except near the onset, the allowed length is uniform in time, not in x.
     """
-    more = x**ONSET - made.element.x**ONSET
+    more = x**ONSET - last.element.x**ONSET
     more *= change * (1.0 + EARLY * more / x**ONSET)
     return min(LONGEST, float((x**ONSET + more) ** (1.0 / ONSET)) - x)
 
@@ -78,8 +78,8 @@ def begun(begin: ImpactState, radius: float) -> float:
     """Return the start of a contact in x: above 0 if the face has not recovered.
 
     Such a contact has no onset. Its time is counted from the moment at which the sphere, at its
-    present speed, would have first touched a face that had recovered. A later origin would make
-    the elements too coarse for the forces at a small radius.
+    present speed, would have first touched a face that had recovered. With a later origin of time,
+    the elements would be too coarse for the forces at a small radius.
     """
     if not radius or begin.separation_speed >= 0.0:
         return 1.0 if radius else 0.0
@@ -104,7 +104,8 @@ def left_after(last: TimeElement) -> float:
     """Return the remaining time of a contact at the present separation speed.
 
     At its end the square of the radius vanishes linearly in time. If fast modes bend the plate more
-    than the sphere is curved, the approach vanishes long before: the radius then tells the time.
+    than the sphere is curved, the approach vanishes long before; the remaining time then follows
+    from the radius.
     """
     state, x = last.end, last.element.x + last.element.length
     if state.separation_speed <= 0.0:
@@ -117,7 +118,7 @@ def left_after(last: TimeElement) -> float:
 
 
 def longest(problem: DynamicProblem, n: int, x: float, left: float, tolerance: float) -> float:
-    """Return the largest length of an element by the fastest mode and the remaining time."""
+    """Return the largest length of an element by its fastest mode and the remaining time."""
     most = problem.fastest
     ahead = PHASE * n / most if most else math.inf
     ahead = min(ahead, _towards(n, tolerance) * left)

@@ -25,7 +25,7 @@ from generated.arrays import Double as Array
 class FreeMotion:
     """Factors of the free motion at phases omega t (see above), each computed at its first use.
 
-    They are free of cancellation at small phases.
+    They have no cancellation at small phases.
     """
 
     phase: Array

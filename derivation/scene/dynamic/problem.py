@@ -1,4 +1,4 @@
-"""The problem of an impact on a plate with inertia in units of a contact, and its states."""
+"""The problem of an impact on a plate with inertia in units of m, v0 and T, and its states."""
 
 import math
 from dataclasses import dataclass
@@ -26,8 +26,8 @@ PART = 32768
 class ImpactState(NamedTuple):
     """Displacement and velocity of the sphere, deflection and velocity of the modes.
 
-    `approach` is the displacement of the sphere less the deflection of the plate. It is integrated,
-    because a difference would be inaccurate if it is far smaller than both.
+    `approach` is the displacement of the sphere minus the deflection of the plate. It is
+    integrated, because the difference would be inaccurate if it is far smaller than both.
     """
 
     displacement: float
@@ -44,7 +44,7 @@ class ImpactState(NamedTuple):
 
 @dataclass(frozen=True)
 class DynamicProblem:
-    """A scene in units of a contact: m, v0 and T; forces are m v0/T and depths v0 T.
+    """A scene in units of m, v0 and T; the unit of forces is m v0/T, that of depths v0 T.
 
     Attributes
     ----------
@@ -56,7 +56,7 @@ class DynamicProblem:
         Gravitational acceleration during contact, in units of v0/T.
     retardation_time
         A_v over T.
-    heard
+    first_echo
         Time after which waves may return from the edge, for an infinite plate; else infinite.
     damping_ratio
         Damping ratio of each mode [1].
@@ -78,7 +78,7 @@ class DynamicProblem:
     v0: float
     weight: float = 0.0
     retardation_time: float = 0.0
-    heard: float = math.inf
+    first_echo: float = math.inf
     damping_ratio: float = 0.0
     yielding: Yielding | None = None
     limit: float = math.inf
@@ -116,11 +116,11 @@ class DynamicProblem:
         return self.inverse_modal_mass / self.omega
 
     def lagging(self, radius: float, t: Array) -> tuple[Array, Array]:
-        """Return how far each mode is deflected by the face that recovers, and how fast.
+        """Return deflection and velocity of each mode by the face that recovers.
 
-        After a viscoelastic contact P = 0, and P_e = P_e(radius) exp(-t/A_v) drives what is not
-        bending. As the radius decreases, the force of a shape changes otherwise: it is a sum of
-        powers of exp(-t/(3 A_v)), in proportion to which the radius decreases by Hertz's law.
+        After a viscoelastic contact P = 0, and P_e = P_e(radius) exp(-t/A_v) drives all deflection
+        other than bending. By Hertz's law the radius decreases as exp(-t/(3 A_v)), and the force
+        that drives a shape is expanded in powers of this function.
 
         Parameters
         ----------
@@ -146,13 +146,17 @@ class DynamicProblem:
     def _recovering_forces(self, radius: float) -> Array:
         """Return the coefficients of `lagging`, shape (powers, shapes).
 
-        Force and rate of change at separation are exact, because the gap opens slowly at first. The
-        remainder is fitted: a wide contact drives short waves in turns, as its radius decreases.
+        The force and its rate at separation are exact, because the gap opens slowly at first. The
+        remainder is fitted, because a wide contact drives short waves with alternating signs as its
+        radius decreases.
         """
         at = self.contact.at(np.array([self.a * radius]))
-        felt, narrow = at.felt[0], at.forces_a[0, 1:] * (at.force[0] / at.force_a[0])
-        forces = np.zeros((POWERS, felt.size))
-        forces[0], forces[3] = 2.0 * felt - narrow, narrow - felt
+        modal_forces, narrow = (
+            at.modal_forces[0],
+            at.forces_a[0, 1:] * (at.force[0] / at.force_a[0]),
+        )
+        forces = np.zeros((POWERS, modal_forces.size))
+        forces[0], forces[3] = 2.0 * modal_forces - narrow, narrow - modal_forces
         x = RECOVERY[:, None]
         a = self.recovering(radius, -3.0 * np.log(RECOVERY))
         rest = self.contact.forces(self.a * a)[:, 1:] / x**3 - forces[0] - x**3 * forces[3]
@@ -174,7 +178,7 @@ class DynamicProblem:
         return np.asarray(a, dtype=np.float64)
 
     def freed(self, state: ImpactState, radius: float, t: float, sign: float = 1.0) -> ImpactState:
-        """Return a state without the deflection of `lagging`, which then is part of the face.
+        """Return a state without the deflection of `lagging`, which belongs to the face.
 
         Its modes move freely. With `sign` = -1 the deflection is added again.
         """
@@ -237,7 +241,8 @@ class DynamicProblem:
         """Return velocity, displacement, plate deflection and plate energy after free flights.
 
         Shape (4, times). `flown` returns the whole state after one of them. Deflection and energy
-        include what recovers with a viscoelastic face, which has a radius at separation.
+        include the part that recovers with a viscoelastic face, whose radius at separation is above
+        0.
         """
         bent, q_dot = self._vibrated(state, t[:, None])
         q = state.q + state.q_dot * t[:, None] + bent
@@ -265,11 +270,11 @@ class Part(NamedTuple):
     """
 
     shapes: slice
-    oscillators: slice
+    modes: slice
     shape: NDArray[np.intp]
     first: NDArray[np.intp]
 
-    def by_oscillator(self, values: Array) -> Array:
+    def by_mode(self, values: Array) -> Array:
         """Return the value of its shape for each mode."""
         return values if self.first.size == self.shape.size else values[..., self.shape]
 

@@ -18,8 +18,8 @@ from derivation.scene.errors import SceneError
 from derivation.scene.scene import OUTPUTS
 
 ROOM = 1.5
-"""Tolerance over the change by omitted branches from which the modes are as accurate as needed:
-they have a third of the tolerance."""
+"""Tolerance over the change by omitted branches, from which a third of the tolerance remains for
+omitted modes."""
 
 
 class OutOfReachError(SceneError):
@@ -30,9 +30,9 @@ class OutOfReachError(SceneError):
     change
         Estimated change by what is omitted [1].
     why
-        What causes the error.
+        The cause of the error.
     remedy
-        What reduces it, as alternatives to a larger tolerance.
+        How to reduce it, instead of a larger tolerance.
     """
 
     def __init__(self, change: float, why: str, remedy: str) -> None:
@@ -71,7 +71,8 @@ class Reach:
         """Return a function that raises an error if a contact is too wide for one wave branch.
 
         It is called with contact radii over `unit` [m]. The change by the omitted branches is at
-        least that of an endless contact of this radius. None if the law includes all branches.
+        least that of an infinitely long contact of this radius. None if the law includes all
+        branches.
         """
         if not self._checks(used):
             return None

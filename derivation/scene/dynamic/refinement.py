@@ -11,16 +11,16 @@ from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import contact_sequence
 from derivation.scene.dynamic.contact_errors import check_whole_width
 from derivation.scene.dynamic.contact_sequence import ImpactHistory, expected_work
-from derivation.scene.dynamic.infinite_plate import edge_heard
+from derivation.scene.dynamic.infinite_plate import wave_returned
 from derivation.scene.dynamic.integration_error import integration_error
 from derivation.scene.dynamic.mode_convergence import (
+    compare,
     echoes_matter,
-    judged,
     jump_matters,
     largest_change,
     nearly_meets,
-    unjudged,
     unreachable,
+    without_estimate,
 )
 from derivation.scene.dynamic.mode_count import (
     LAST,
@@ -40,8 +40,8 @@ from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.errors import SceneError
 
 TOLERANCE_FRACTION, KEPT = 1.0 / 3.0, 0.75
-"""Largest accepted error by omitted modes over the tolerance; the part of it that omitted modes and
-branches together may take."""
+"""Largest accepted error by omitted modes over the tolerance; largest one by omitted modes and
+branches together."""
 ROUGHER, ROUGHEST = 5.0, 10.0
 """Factors by which the error by omitted modes may be larger without a tolerance, if the next run
 takes more work than `LONG`, and at least four times as much: then it is at most 0.2 and 0.4 %."""
@@ -63,7 +63,7 @@ class FirstRun(NamedTuple):
     estimated
         The same with an error estimate by these runs, if they give one.
     final
-        Whether no finer run is needed, or useful.
+        Whether no finer run is needed, or none is useful.
     """
 
     run: DynamicImpact
@@ -109,14 +109,14 @@ class Refinement:
         rough = known or run_with(self.law, count, self.budget, close, FEWER, coarse, self.reach)
         if not rough.inertia.complete:  # a finer run would not be complete either
             return rough
-        if self.law.model.inertia.infinite_plate and edge_heard(rough):
+        if self.law.model.inertia.infinite_plate and wave_returned(rough):
             return rough
         check_whole_width(rough.impact_history.problem, rough.max_contact_radius)
-        first = self._judged_first(rough, count)
+        first = self._first_with_error(rough, count)
         return first.run if first.final else self._refined(first, count)
 
-    def _judged_first(self, rough: DynamicImpact, count: int) -> FirstRun:
-        """Return the first run, judged by coarser ones."""
+    def _first_with_error(self, rough: DynamicImpact, count: int) -> FirstRun:
+        """Return the first run, with an error estimate by coarser ones."""
         work = self._next_work(rough, finer(self.law, count))
         compared: tuple[DynamicImpact | None, DynamicImpact] | None = None
         halved: DynamicImpact | None = None
@@ -153,10 +153,10 @@ class Refinement:
             if not run.inertia.complete:
                 unstarted = run.impact_history.problem is rough.impact_history.problem
                 return runs[-1] if runs else (first.estimated if unstarted else None) or run
-            rough = judged(rough, run)
+            rough = compare(rough, run)
             runs.append(rough)
             if law.model.inertia.pointwise:  # short waves gain energy: results do not converge
-                return unjudged(rough)
+                return without_estimate(rough)
             if law.model.inertia.modes:
                 return self._of_chosen_modes(rough, count)
             most = self._limit_of_next(runs, count, most)
@@ -193,9 +193,10 @@ class Refinement:
         return FINAL if beyond else most
 
     def _enough_modes(self, run: DynamicImpact, work: float) -> bool:
-        """Return whether a run with more modes, of this work, is not needed.
+        """Return whether a run with more modes, which takes this work, is not needed.
 
-        Without a tolerance, modes that matter little beside stretching are not.
+        Without a tolerance, it is not if the error by omitted modes is small compared with
+        stretching.
         """
         if run.inertia.left(self.reach.outputs)[0] <= self._accepted_change(run, work):
             return True
@@ -207,7 +208,8 @@ class Refinement:
         if work > LONG and math.isinf(reach.need):
             return min(ROUGHER * math.sqrt(work / LONG), ROUGHEST) * goal
         beyond = run.inertia.left(reach.outputs)[1]
-        # Where omitted branches matter more than additional modes, a tenth of them is small enough.
+        # If omitted branches matter more than omitted modes, a tenth of their change is small
+        # enough.
         enough = goal if beyond <= goal / TOLERANCE_FRACTION else max(goal, 0.1 * beyond)
         allowed = KEPT * reach.need
         if not run.inertia.jump <= allowed < math.inf:
@@ -231,9 +233,9 @@ class Refinement:
             return halved
         try:
             coarse = run_with(law, coarser(count), self.budget, time_tolerance(LOOSE), FEWER)
-        except SceneError:  # so few modes may bend the plate more than the sphere is curved
+        except SceneError:  # so few modes may make the plate more curved than the sphere
             return run
-        return judged(coarse, run) if coarse.inertia.complete else run
+        return compare(coarse, run) if coarse.inertia.complete else run
 
     def _next_work(self, rough: DynamicImpact, count: int) -> float:
         """Return the expected work of a run with a number of bending modes."""
@@ -244,30 +246,30 @@ class Refinement:
         """Return a run with the number of modes of the scene, and a reliable error estimate.
 
         If half as many modes are slower than the contact, their run may agree by chance: the larger
-        change since half and since a quarter as many modes then counts. If all modes are slower
-        than the contact, there is no estimate.
+        one of the changes since half and since a quarter as many modes is used. If all modes are
+        slower than the contact, there is no estimate.
         """
         law, fewest = self.law, coarser(coarser(count))
         if fast(law, coarser(count)):
             return run
         if not fast(law, count):
-            return unjudged(run)
+            return without_estimate(run)
         coarse = run_with(law, fewest, self.budget, time_tolerance(LOOSE), FEWER)
         if not coarse.inertia.complete:
-            return unjudged(run)
-        return largest_change(run, judged(coarse, run))
+            return without_estimate(run)
+        return largest_change(run, compare(coarse, run))
 
     def _by_coarser(
         self, run: DynamicImpact, count: int, work: float
     ) -> tuple[DynamicImpact | None, DynamicImpact] | None:
         """Return the first run with an error estimate by coarser ones, less work than a finer one.
 
-        As in `_of_chosen_modes`, the larger change since half and since a quarter as many modes
-        counts. The second result has the change since half as many modes alone. The first result is
-        None if the coarser runs have entirely different results; both are if the scene gives a
-        number of modes, the modes of the first run are slower than the contact, or a coarser run
-        fails, is incomplete, or shows that the first one cannot be accurate enough. The coarser
-        runs are not charged to the budget.
+        As in `_of_chosen_modes`, the larger one of the changes since half and since a quarter as
+        many modes is used. The second result has the change since half as many modes alone. The
+        first result is None if the coarser runs have entirely different results; both are if the
+        scene gives a number of modes, the modes of the first run are slower than the contact, or a
+        coarser run fails, is incomplete, or shows that the first one cannot be accurate enough. The
+        coarser runs are not charged to the budget.
 
         Parameters
         ----------
@@ -281,12 +283,13 @@ class Refinement:
         for fewer in (coarser(coarser(count)), coarser(count)):
             try:
                 coarse = run_with(law, fewer, spare, time_tolerance(LOOSE), FEWER)
-            except SceneError:  # so few modes may bend the plate more than the sphere is curved
+            except SceneError:  # so few modes may make the plate more curved than the sphere
                 return None
             if not coarse.inertia.complete:
                 return None
-            compared.append(judged(coarse, run))
-            # The change since a quarter as many modes counts. One more only tells what is in reach.
+            compared.append(compare(coarse, run))
+            # The larger change is used. The next coarser run is useless if the finer run follows
+            # anyway.
             follows = math.isinf(self.reach.need) and work <= min(contact_sequence.WORK, left)
             if follows and not self._enough_modes(compared[0], work):
                 return None

@@ -21,8 +21,8 @@ from derivation.scene.errors import IncompleteError
 LOOSE = 4e-4
 """Largest accepted error by omitted modes without a tolerance [1]."""
 WHOLE, FEWER_MODES = 2.5e5, 4
-"""Largest work of a run that only determines which tolerance a message names, and how many times
-fewer modes it has: it takes a quarter of a second."""
+"""Largest work (a quarter of a second) of a run that only determines which tolerance a message
+names; factor by which it has fewer modes."""
 FEWEST = 5
 """Least number of modes of a simulation without an error bound."""
 WORK = 4.5e7
@@ -107,9 +107,9 @@ def with_few_modes(law: ContactLaw, part: float, work: float = WORK) -> DynamicI
 
 
 def _check_later(law: ContactLaw, count: int, reach: Reach, early: float) -> None:
-    """Raise an error if the change by omitted branches exceeds an early estimate in the end.
+    """Raise an error if the final change by omitted branches exceeds an early estimate.
 
-    The message then names a tolerance for which the change at the end counts.
+    The message then names a tolerance for the final change.
 
     Parameters
     ----------

@@ -16,7 +16,7 @@ def last_element(
     radius: float,
     enough: float = NEXT,
 ) -> TimeElement:
-    """Return the element shortened to end where its force vanishes."""
+    """Return the element, shortened so that it ends where its force vanishes."""
     for _ in range(3):
         x = made.element.x
         guess = made.element.slope_at(x + (end - x) * radau(n).x)
@@ -34,7 +34,7 @@ def released(problem: DynamicProblem, last: TimeElement, left: float) -> tuple[f
     for _ in range(3):
         flown = problem.flown(state, left)
         push, shift = 0.4 * left, 2.0 / 7.0 * left * left
-        pulled = problem.inverse_modal_mass * last.felt[problem.contact.modes.shape]
+        pulled = problem.inverse_modal_mass * last.modal_forces[problem.contact.modes.shape]
         after = ImpactState(
             flown.displacement - force * shift,
             flown.velocity - force * push,

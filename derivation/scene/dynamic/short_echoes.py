@@ -1,6 +1,6 @@
 """Short waves from the onset of a viscoelastic contact that return from the edge of the plate.
 
-The elastic force begins as P_e = K (v t)^(3/2), and leaves mode j with the velocity
+The elastic force begins as P_e = K (v t)^(3/2), and gives mode j the velocity
 
     c_j K v^(3/2) Gamma(5/2) omega_j^(-1/2) sqrt(1 + (f_j A_v omega_j)^2)
 
@@ -30,8 +30,8 @@ from derivation.scene.numerics.collocation import ONSET, largest_of
 ONSET_POWER = math.gamma(2.5)
 """Amplitude of the Fourier transform of t^(3/2), times omega^(5/2)."""
 SUMMED = 4
-"""Largest number of summed modes over that of the dynamic modes; the rest of the sum follows from
-its last term."""
+"""Largest number of summed modes over that of the dynamic modes; a bound on the rest of the sum
+follows from its last term."""
 
 
 def echo_errors(

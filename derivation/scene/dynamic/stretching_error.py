@@ -35,7 +35,7 @@ changed by up to 6 S, and by 41 S after a minimum of 4.1 S."""
 USABLE = 0.1
 """Error by stretching for which a message recommends a speed or a thickness [1]."""
 SMALL = 0.02
-"""Error by omitted modes over that by stretching below which more modes are of no use."""
+"""Error by omitted modes over that by stretching, below which more modes are not useful."""
 SMALLEST, MARGIN = 7e-4, 2.5
 """Stiffening during the first contact from which a warning says that it may split this contact, or
 join it with the next one: half of the smallest one that did; and the same over the change that
@@ -50,7 +50,7 @@ class Deflections(NamedTuple):
     largest
         The largest one up to the last separation.
     so_far
-        The largest one up to each time of the first contact, as many times as in its course; empty
+        The largest one up to each time of the first contact, as many times as in its history; empty
         on a quasi-static plate.
     """
 
@@ -80,18 +80,18 @@ def stretching_error(
     sizes = np.asarray(stretching(law.model, deflections.so_far), dtype=np.float64)
     rebound = abs(motion.restitution) if motion.inertia.complete else 1.0  # else unknown
     return {
-        "contact_time": max(TIME * float(sizes[-1]), earlier_end(motion.courses[0][P], sizes)),
+        "contact_time": max(TIME * float(sizes[-1]), earlier_end(motion.histories[0][P], sizes)),
         "max_indentation": DEPTH * size,
-        "max_force": _higher([rows[P] for rows in motion.courses], sizes, FORCE * size),
-        "max_contact_radius": _higher([rows[A] for rows in motion.courses], sizes, RADIUS * size),
+        "max_force": _higher([rows[P] for rows in motion.histories], sizes, FORCE * size),
+        "max_contact_radius": _higher([rows[A] for rows in motion.histories], sizes, RADIUS * size),
         "restitution": SPEED * size / max(rebound, 1e-6),
     }
 
 
 def exceeds_modes(law: ContactLaw, motion: "DynamicImpact", outputs: Sequence[str]) -> bool:
-    """Return whether the omitted modes matter little beside stretching, in each of some outputs."""
+    """Return whether stretching changes each of some outputs much more than the omitted modes."""
     inertia = motion.inertia
-    # Nearly the error of the indentation itself, without evaluating the deflection over time.
+    # This is nearly the error of the indentation, without evaluating the deflection over time.
     rough = DEPTH * float(stretching(law.model, motion.max_indentation))
     if inertia.recounted or inertia.error_of_modes("max_indentation") > SMALL * rough:
         return False
@@ -108,14 +108,14 @@ def stress_change(law: ContactLaw, motion: "DynamicImpact") -> float:
     """
     deflection = motion.deflection_before_separation(law)
     size = float(stretching(law.model, deflection))
-    factor = 1.0 if len(motion.courses) == 1 else FORCE
+    factor = 1.0 if len(motion.histories) == 1 else FORCE
     return float(membrane_stress(law.model, deflection)) + factor * size
 
 
 def earlier_end(force: Array, sizes: Array) -> float:
     """Return the fraction of the first contact from which on it may end, after its largest force.
 
-    A force that rises again after a minimum is that of waves which return, as in a later contact.
+    A force that rises again after a minimum is due to waves that return, as in a later contact.
     """
     peak = int(np.argmax(force))
     after, size = force[peak:] / force[peak], sizes[peak:]
@@ -126,22 +126,22 @@ def earlier_end(force: Array, sizes: Array) -> float:
     return 1.0 - (peak + int(np.argmax(may_end))) / (force.size - 1)
 
 
-def _higher(courses: list[Array], sizes: Array, later: float) -> float:
-    """Return how far the largest value of the contacts may increase, over this value.
+def _higher(histories: list[Array], sizes: Array, later: float) -> float:
+    """Return the largest possible increase of the largest value of the contacts, over this value.
 
     A value that is smaller in the linear motion may become the largest one.
 
     Parameters
     ----------
-    courses
+    histories
         The value over time in each contact.
     sizes
         The stiffening in the first contact, up to each time.
     later
         Relative change of the largest values in later contacts.
     """
-    first, *others = courses
-    highest = max((float(np.max(course)) for course in others), default=0.0)
+    first, *others = histories
+    highest = max((float(np.max(history)) for history in others), default=0.0)
     increased = max(float(np.max(first * (1.0 + PEAK * sizes))), highest * (1.0 + later))
     return increased / max(float(np.max(first)), highest) - 1.0
 

@@ -43,10 +43,10 @@ plate; and the contact radius, which differs from that of the law by the curvatu
 class Nodes(NamedTuple):
     """The nodes of an element, with all quantities that do not depend on its radii.
 
-    x; times since the start of the contact and of the element; dt/dx; matrices of the integrals
-    from the start of the element over x, over t and twice over t; the modes in parts, their
-    response and their free motion less uniform motion; and for each shape the sum of that over its
-    modes, and the uniform motion from position and velocity at the start.
+    The fields are x; times since the start of the contact and of the element; dt/dx; matrices of
+    the integrals from the start of the element over x, over t and twice over t; the modes in parts,
+    their response, and their free motion minus uniform motion; for each shape the sum of this
+    difference over its modes; and the uniform motion from position and velocity at the start.
     """
 
     x: Array
@@ -64,7 +64,7 @@ class Nodes(NamedTuple):
 
 
 class Values(NamedTuple):
-    """Quantities at the nodes for radii a with slopes y; q and `felt` are those of each shape."""
+    """Quantities at the nodes for radii a with slopes y; q and modal forces of each shape."""
 
     a: Array
     y: Array
@@ -73,7 +73,7 @@ class Values(NamedTuple):
     q: Array
     approach: Array
     force: Array
-    felt: Array
+    modal_forces: Array
     load_y: Array | None
 
 
@@ -86,7 +86,7 @@ class TimeElement(NamedTuple):
     element: Element
     end: ImpactState
     radius: float
-    felt: Array
+    modal_forces: Array
     yielding: Yielding | None
 
 
@@ -98,7 +98,7 @@ def nodes_of(problem: DynamicProblem, n: int, x: float, length: float, start: Im
     since = t - x**ONSET
     response = Response.empty((n, problem.omega.size), problem.damping_ratio)
     free, parts = np.empty((n, problem.omega.size)), problem.parts(n)
-    for part in (part.oscillators for part in parts):
+    for part in (part.modes for part in parts):
         by_q, by_rate = response_at(
             since, problem.omega[part], problem.damping_ratio, response, part
         )
@@ -119,33 +119,35 @@ def _driven_waves(problem: DynamicProblem, nodes: Nodes, part: Part, driven: Arr
 
     The deflection is the sum of both, each multiplied by `moved`.
     """
-    n, oscillators = nodes.t.size, part.oscillators
-    force = part.by_oscillator(driven[:, part.shapes]) * problem.strength[oscillators]
-    forces = nodes.response.drive[..., oscillators] * force[:, None]
+    n, indices = nodes.t.size, part.modes
+    force = part.by_mode(driven[:, part.shapes]) * problem.strength[indices]
+    forces = nodes.response.drive[..., indices] * force[:, None]
     return np.asarray((nodes.by_t @ forces.reshape(n, -1)).reshape(forces.shape))
 
 
-def _bent(problem: DynamicProblem, nodes: Nodes, driven: Array) -> Array:
+def _modal_deflections(problem: DynamicProblem, nodes: Nodes, driven: Array) -> Array:
     """Return the deflection of each shape at the nodes by forces at the nodes."""
     bent = np.empty_like(driven)
     for part in nodes.parts:
         waves = _driven_waves(problem, nodes, part, driven)
-        waves *= nodes.response.moved[..., part.oscillators]
+        waves *= nodes.response.moved[..., part.modes]
         bent[:, part.shapes] = part.by_shape(waves[:, 0] + waves[:, 1])
     return bent
 
 
-def _bent_by(problem: DynamicProblem, nodes: Nodes, modal_weights: Array, driven: Array) -> Array:
+def _deflection_sums(
+    problem: DynamicProblem, nodes: Nodes, modal_weights: Array, driven: Array
+) -> Array:
     """Return the sum of weighted deflections at each node, per contact force at each node."""
     n = nodes.t.size
     bent = np.zeros((n, n))
     for part in nodes.parts:
-        oscillators = part.oscillators
-        load = part.by_oscillator(driven[:, part.shapes]) * problem.strength[oscillators]
-        moved = nodes.response.moved[..., oscillators] * part.by_oscillator(
+        indices = part.modes
+        load = part.by_mode(driven[:, part.shapes]) * problem.strength[indices]
+        moved = nodes.response.moved[..., indices] * part.by_mode(
             modal_weights[:, None, part.shapes]
         )
-        drive = nodes.response.drive[..., oscillators] * load[:, None]
+        drive = nodes.response.drive[..., indices] * load[:, None]
         bent += moved.reshape(n, -1) @ drive.reshape(n, -1).T
     return bent * nodes.by_t
 
@@ -172,13 +174,13 @@ def _load_at(
     load_a = at.forces_a * (problem.a / problem.force)
     if not problem.retardation_time:
         return _Load(a, y, load, load_a, None)
-    # The pressure keeps its shape: the retarded part drives each shape in the same proportion,
-    # but only the bending, because all other deflection lags it.
+    # The pressure keeps its shape. The viscous part of the force therefore drives each shape in the
+    # same proportion, but only its bending: all other deflection lags the force.
     viscous_ratio = problem.retardation_time / nodes.rate * load_a[:, 0] / load[:, 0]
     load_y = viscous_ratio[:, None] * load
     load_y[:, 1:] *= problem.bending_fraction
     load = load + load_y * y[:, None]
-    load_a = load_a + 2.0 * load_y * (y / a)[:, None]  # d2P/da2 is nearly (2/a) dP/da
+    load_a = load_a + 2.0 * load_y * (y / a)[:, None]  # d^2P/da^2 is nearly (2/a) dP/da
     return _Load(a, y, load, load_a, load_y)
 
 
@@ -194,7 +196,7 @@ def _forces_at(problem: DynamicProblem, nodes: Nodes, radius: float, y: Array) -
 def deflections_at(problem: DynamicProblem, nodes: Nodes, radius: float, y: Array) -> Array:
     """Return the deflection of each shape at the nodes for a slope da/dx there."""
     load = _forces_at(problem, nodes, radius, y)
-    return nodes.even + nodes.moved + _bent(problem, nodes, load.forces[:, 1:])
+    return nodes.even + nodes.moved + _modal_deflections(problem, nodes, load.forces[:, 1:])
 
 
 def _values(
@@ -238,14 +240,16 @@ def element(
     order = 1 if problem.retardation_time else 2
     for _ in range(NEWTON):
         if found:
-            return _piece(problem, nodes, start, radius, y, x, length)
+            return _polynomials(problem, nodes, start, radius, y, x, length)
         a = radius + nodes.by_x @ y
         if not a.min() > 0.0:
             return None
         at = problem.at(problem.a * a)
         load = _load_at(problem, nodes, a, y, at)
-        values = _values(problem, nodes, start, load, _bent(problem, nodes, load.forces[:, 1:]))
-        depth = at.depth / problem.depth + np.vecdot(at.less, values.q)
+        values = _values(
+            problem, nodes, start, load, _modal_deflections(problem, nodes, load.forces[:, 1:])
+        )
+        depth = at.depth / problem.depth + np.vecdot(at.weights_less_one, values.q)
         system = _system(problem, nodes, at, load, values.q) / nodes.t[:, None]
         step = newton_step(system, (values.approach - depth) / nodes.t, nodes.by_x, a)
         if step is None:
@@ -261,10 +265,10 @@ def _system(
     problem: DynamicProblem, nodes: Nodes, at: ContactSamples, load: _Load, q: Array
 ) -> Array:
     """Return the derivative of depth less approach with respect to da/dx, at the nodes."""
-    modal_weights = 1.0 + at.less
+    modal_weights = 1.0 + at.weights_less_one
 
     def by_load(by: Array) -> Array:
-        moved = _bent_by(problem, nodes, modal_weights, by[:, 1:])
+        moved = _deflection_sums(problem, nodes, modal_weights, by[:, 1:])
         return np.asarray(nodes.twice * by[:, 0] + moved, dtype=np.float64)
 
     by_radius = by_load(load.by_a)
@@ -274,7 +278,7 @@ def _system(
     return by_slope if load.by_y is None else by_slope + by_load(load.by_y)
 
 
-class Driven(NamedTuple):
+class DrivenModes(NamedTuple):
     """The modes under a force: deflections and velocities at the end of an element.
 
     At the nodes: deflection of each shape by the forces, energy of the modes, power dissipated by
@@ -289,30 +293,30 @@ class Driven(NamedTuple):
     rates: Array
 
 
-def _driven(
-    problem: DynamicProblem, nodes: Nodes, start: ImpactState, felt: Array, by_shape: bool
-) -> Driven:
+def _driven_modes(
+    problem: DynamicProblem, nodes: Nodes, start: ImpactState, modal_forces: Array, by_shape: bool
+) -> DrivenModes:
     """Return the motion of the modes under the forces of each shape."""
     modes, (end, end_rate) = problem.contact.modes, np.empty((2, problem.omega.size))
     energy, damped = np.zeros((2, nodes.t.size))
-    bent = np.empty_like(felt)
+    bent = np.empty_like(modal_forces)
     rates = np.empty(nodes.free.shape if by_shape else (1, 0))
     for part in nodes.parts:
-        oscillators = part.oscillators
-        inverse_mass, omega = problem.inverse_modal_mass[oscillators], problem.omega[oscillators]
-        of, waves = nodes.response, _driven_waves(problem, nodes, part, felt)
-        q_0, q_dot = start.q[oscillators], start.q_dot[oscillators]
-        swing = waves * of.rate[..., oscillators]
+        indices = part.modes
+        inverse_mass, omega = problem.inverse_modal_mass[indices], problem.omega[indices]
+        of, waves = nodes.response, _driven_waves(problem, nodes, part, modal_forces)
+        q_0, q_dot = start.q[indices], start.q_dot[indices]
+        swing = waves * of.rate[..., indices]
         rate = (swing[:, 0] + swing[:, 1]) * omega
-        rate += q_dot * of.rate[:, 0, oscillators] - q_0 * omega * of.moved[:, 0, oscillators]
-        waves *= of.moved[..., oscillators]
+        rate += q_dot * of.rate[:, 0, indices] - q_0 * omega * of.moved[:, 0, indices]
+        waves *= of.moved[..., indices]
         q = waves[:, 0] + waves[:, 1]
         bent[:, part.shapes] = part.by_shape(q)
         q += q_0 + nodes.since[:, None] * q_dot
-        q += nodes.free[:, oscillators]
-        end[oscillators], end_rate[oscillators] = q[-1], rate[-1]
+        q += nodes.free[:, indices]
+        end[indices], end_rate[indices] = q[-1], rate[-1]
         if by_shape:
-            rates[:, oscillators] = rate
+            rates[:, indices] = rate
         if problem.damping_ratio:
             from generated.damping_kernels import power_lost
 
@@ -323,10 +327,10 @@ def _driven(
         q *= q
         energy += (rate + q) @ (0.5 / inverse_mass)
     rates = modes.by_shape(rates) if by_shape else rates
-    return Driven(end, end_rate, bent, energy, damped, rates)
+    return DrivenModes(end, end_rate, bent, energy, damped, rates)
 
 
-def _piece(
+def _polynomials(
     problem: DynamicProblem,
     nodes: Nodes,
     start: ImpactState,
@@ -340,13 +344,13 @@ def _piece(
     if not load.a.min() > 0.0:
         return None
     by_shape = load.by_y is not None or pointwise
-    driven = _driven(problem, nodes, start, load.forces[:, 1:], by_shape)
+    driven = _driven_modes(problem, nodes, start, load.forces[:, 1:], by_shape)
     at = _values(problem, nodes, start, load, driven.bent)
     force = at.force
     lost, leak = np.zeros_like(force), np.zeros_like(force)
     if at.load_y is not None:
-        felt = at.load_y[:, 1:] / at.load_y[:, :1]
-        closing = at.v - np.sum(felt * driven.rates, axis=1)
+        modal_forces = at.load_y[:, 1:] / at.load_y[:, :1]
+        closing = at.v - np.sum(modal_forces * driven.rates, axis=1)
         lost = at.load_y[:, 0] * at.y * closing * nodes.rate
     if pointwise:
         elastic = load.forces if load.by_y is None else load.forces - load.by_y * at.y[:, None]
@@ -360,4 +364,4 @@ def _piece(
         float(at.z[-1]), float(at.v[-1]), driven.q, driven.q_dot, float(at.approach[-1])
     )
     # A copy, because a view of the last row would keep all rows in memory.
-    return TimeElement(made, end, float(at.a[-1]), at.felt[-1].copy(), problem.yielding)
+    return TimeElement(made, end, float(at.a[-1]), at.modal_forces[-1].copy(), problem.yielding)

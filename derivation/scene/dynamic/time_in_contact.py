@@ -1,8 +1,8 @@
 """Estimates how long a sphere touches a plate with inertia, before the impact is simulated.
 
-The sphere is attached to the plate by a linear spring, as stiff as the contact on a plate that does
-not deflect. Until this sphere stops, contacts and flights follow each other about as the force of
-the spring changes its sign.
+In the estimate the sphere is attached to the plate by a linear spring, as stiff as the contact on a
+plate that does not deflect. Until this sphere stops, the force of the spring is positive about as
+long as the sphere is in contact.
 """
 
 import math
@@ -25,12 +25,14 @@ from derivation.scene.errors import SceneError
 from generated.arrays import Double as Array
 
 NODES, MANY = (32, 24), 200
-"""Nodes of an element, and number of modes above which it has the fewer ones. With 16 nodes of
-10,000 damped modes, the tolerance and not the fastest mode limits its length: runs took longer."""
+"""Nodes of an element, and number of modes above which an element has the smaller number of nodes.
+With 16 nodes and 10,000 damped modes, the tolerance and not the fastest mode limits its length, so
+that runs take longer."""
 FEWER = 2
 """Difference in the number of nodes between a run and the coarser one that checks it."""
 IN_CONTACT = 0.7
-"""Least fraction of half the period of a heavy sphere in contact; 0.77 in random scenes."""
+"""Smallest contact time of a heavy sphere over half its period on the plate; 0.77 in random
+scenes."""
 SPRING, DEFLECTED = 5.0, 0.9
 """Sphere mass over mass of the first mode from which the plate deflects about as a spring, and the
 smallest ratio of its deflection to that of the spring: 0.92 to 0.98 in 22 random impacts."""
@@ -46,7 +48,7 @@ LIGHTEST = 0.05
 
 
 def stopping_time(law: ContactLaw, modes: Modes) -> float:
-    """Return the time [s] after which the attached sphere first has no velocity.
+    """Return the time [s] after which the velocity of the attached sphere first vanishes.
 
     It is at most half the period of its slowest vibration.
     """
@@ -70,15 +72,15 @@ def _vibrations(m: float, spring: float, modes: Modes) -> tuple[Array, Array]:
     spring
         Stiffness of the spring between them [N/m].
     """
-    stretch = np.append(-np.sqrt(modes.inverse_modal_mass), 1.0 / math.sqrt(m))
-    matrix = spring * np.multiply.outer(stretch, stretch)
+    root_inverse_mass = np.append(-np.sqrt(modes.inverse_modal_mass), 1.0 / math.sqrt(m))
+    matrix = spring * np.multiply.outer(root_inverse_mass, root_inverse_mass)
     matrix[np.diag_indices(modes.omega.size)] += modes.omega**2
     squares, shapes = np.linalg.eigh(matrix)
     return np.sqrt(np.maximum(squares, 0.0)), shapes[-1] ** 2
 
 
 def time_in_contact(law: ContactLaw, modes: Modes) -> float:
-    """Return an estimate [s] that the sum of all contacts exceeds; 0 for a very light sphere."""
+    """Return an estimated lower limit [s] of the sum of all contact times; 0 for a light sphere."""
     if law.model.m * float(modes.inverse_modal_mass[0]) < LIGHTEST:
         return 0.0
     return TOUCHING * stopping_time(law, modes)
@@ -98,8 +100,8 @@ def check_long(law: ContactLaw, tolerance: float) -> None:
     """Reject a sphere that stays on the plate for more time steps than are allowed.
 
     The fastest mode limits the time step. The contacts of a heavy sphere last about half a period;
-    of any other the least time in contact counts. A heavy sphere that deflects the plate beyond the
-    linear model is rejected too.
+    for any other sphere the least time in contact is used. A heavy sphere that deflects the plate
+    beyond the linear model is rejected too.
     """
     model = law.model
     if model.inertia.modes or model.inertia.infinite_plate:
@@ -122,7 +124,8 @@ def check_long(law: ContactLaw, tolerance: float) -> None:
 def check_deflected(law: ContactLaw, tolerance: float) -> None:
     """Reject a heavy sphere that deflects the plate so far that stretching doubles its stiffness.
 
-    Up to a hundred contacts would be simulated, on a plate that is far too soft.
+    Without this check, up to a hundred contacts would be simulated with a plate model that is far
+    too soft.
 
     Parameters
     ----------
@@ -144,7 +147,7 @@ def check_deflected(law: ContactLaw, tolerance: float) -> None:
         f"{deflection:.2g} m ({thicknesses:.2g} thicknesses) under a sphere {ratio:.3g} times as "
         "heavy as its first mode; use a thicker or smaller plate"
         f"{_slower(law, tolerance, limit, swing)}, or set inertia.modes to simulate a plate that "
-        "does not stretch"
+        "does not root_inverse_mass"
     )
 
 

@@ -20,8 +20,9 @@ VIBRATING = 5 / 3
 """Increase of the changes of a single contact by vibration of the plate: at most 1.4 in 517 random
 impacts."""
 LATER = 3.0
-"""Changes of the results of several contacts over that of the first one's duration, apart from
-growth by the time between contacts: at most 2.5 in 165 random impacts of 2 to 24 contacts."""
+"""Changes of the results of an impact with several contacts over the change of the first one's
+duration, without the growth by the time between contacts: at most 2.5 in 165 random impacts of 2 to
+24 contacts."""
 
 
 def unlike_bodies_errors(

@@ -53,7 +53,7 @@ def out_of_reach(
         where = "with the dynamic modes and wave branches of this scene"
         if law.model.inertia.modes:
             remedy += " or inertia.modes"
-        else:  # the simulation ends where more modes are of no use for this tolerance
+        else:  # the simulation ends when more modes cannot meet this tolerance
             expected = "a tolerance that can be met, such as"
     if math.isinf(accuracy.bound):
         return SceneError(

@@ -13,7 +13,7 @@ import numpy as np
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import local_indentation
 from derivation.scene.dynamic.contact_sequence import ImpactHistory
-from derivation.scene.dynamic.first_contact import IRREGULAR, LOOKS, decisive_change, minima
+from derivation.scene.dynamic.first_contact import EVALUATIONS, IRREGULAR, decisive_change, minima
 from derivation.scene.dynamic.history_at import deflections, rows_of
 from derivation.scene.dynamic.time_element import A, C, E, P, V, W, Z
 from derivation.scene.effects.effect import Results
@@ -83,7 +83,7 @@ class InertiaDetails:
     end_reason
         Why the simulation ends.
     remedy
-        What to change so that an incomplete simulation becomes complete; empty if it is complete.
+        Advice to make an incomplete simulation complete; empty if it is complete.
     modes
         Number of dynamic modes, of all included branches.
     energies
@@ -186,10 +186,10 @@ class DynamicImpact(Motion):
     energy_balance: EnergyBalance = field(kw_only=True)
 
     @cached_property
-    def courses(self) -> tuple[Array, ...]:
-        """The rows of each contact at `LOOKS` times, up to the plate's deflection, in SI units."""
+    def histories(self) -> tuple[Array, ...]:
+        """Rows of each contact at `EVALUATIONS` times, up to the deflection, in SI units."""
         problem, contacts = self.impact_history.problem, self.impact_history.contacts
-        times = (np.linspace(one.start, one.end, LOOKS) * problem.T for one in contacts)
+        times = (np.linspace(one.start, one.end, EVALUATIONS) * problem.T for one in contacts)
         return tuple(self.rows(some)[: W + 1].copy() for some in times)
 
     @cached_property
@@ -202,7 +202,7 @@ class DynamicImpact(Motion):
     @property
     def least(self) -> float:
         """Smallest force between two maxima in a contact, over the peak force [1]; 1 if none."""
-        return min(self.least_force(rows) for rows in self.courses)
+        return min(self.least_force(rows) for rows in self.histories)
 
     @cached_property
     def decisive_change(self) -> float:
@@ -232,7 +232,7 @@ class DynamicImpact(Motion):
 
     def deflection_before_separation(self, law: ContactLaw) -> float:
         """Return the largest deflection at the axis [m] up to the end of the last contact."""
-        touching = (self.deflection_during(law, i) for i in range(len(self.courses)))
+        touching = (self.deflection_during(law, i) for i in range(len(self.histories)))
         contacts = self.impact_history.contacts
         flights = (self._in_flight(one.end, other.start) for one, other in pairwise(contacts))
         return max(*touching, *flights, 0.0)
@@ -243,7 +243,7 @@ class DynamicImpact(Motion):
 
     def deflections_so_far(self, law: ContactLaw, contact: int) -> Array:
         """Return the largest deflection at the axis [m] up to each time of a contact."""
-        rows = self.courses[contact]
+        rows = self.histories[contact]
         a = np.minimum(np.maximum(rows[A], 0.0), law.limit)
         free = rows[Z] - local_indentation(law, a)
         largest = np.maximum.accumulate(np.maximum(np.abs(free), np.abs(rows[W])))
@@ -284,7 +284,7 @@ class DynamicImpact(Motion):
         return [tuple(f"{value:.6g}" for value in touch) for touch in self.inertia.contacts]
 
     def notes(self) -> tuple[str, ...]:
-        """Return what is known of errors, and the end of the simulation, as sentences."""
+        """Return sentences about error estimates and the end of the simulation."""
         inertia, residual = self.inertia, abs(self.energy_balance.residual)
         energies = (
             "The numbers of single contacts have no error bounds. The energy balance closes to "

@@ -39,7 +39,7 @@ def problem_with(law: ContactLaw, plate: ModalPlate, tail: float = TAIL) -> Dyna
     rest = law.only(lambda e: e.static and not e.other_edge)
     contact = contact_of(rest, plate, min(WIDER * a, law.limit), model.inertia.pointwise, tail)
     retardation = model.retardation_time / T if law.viscous else 0.0
-    heard = echo_time(model) / T if model.inertia.infinite_plate else math.inf
+    first_echo = echo_time(model) / T if model.inertia.infinite_plate else math.inf
     weight = law.gravity * (T / model.v0)
     units = a, T, model.m, model.v0
     elastic_fraction = bending_fraction(model, plate.modes) if retardation else 1.0
@@ -49,7 +49,7 @@ def problem_with(law: ContactLaw, plate: ModalPlate, tail: float = TAIL) -> Dyna
         *units,
         weight,
         retardation,
-        heard,
+        first_echo,
         law.damping_ratio,
         yielding_of(law),
         *limit,

@@ -17,7 +17,7 @@ from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import contact_sequence
 from derivation.scene.dynamic.contact_sequence import ContactRun, ImpactHistory
 from derivation.scene.dynamic.first_contact import jump_since
-from derivation.scene.dynamic.infinite_plate import edge_heard, widened, wider
+from derivation.scene.dynamic.infinite_plate import wave_returned, widened, wider
 from derivation.scene.dynamic.integration_error import error_after
 from derivation.scene.dynamic.mode_count import (
     affordable,
@@ -59,7 +59,7 @@ def impact(
         Largest accepted relative change of the results with the number of modes [1]. The number is
         doubled while the change is larger, unless the scene gives the number. If the scene gives
         no branches, all are included if the higher ones may change the results by more than the
-        goal leaves of the tolerance.
+        part of the tolerance that the goal leaves.
     outputs
         The results that the goal applies to.
     need
@@ -84,7 +84,7 @@ def impact(
     if law.model.inertia.branches == "auto" and not law.viscous:
         law, rough = _branched(law, goal, reach, budget)
     run = Refinement(law, goal, reach, budget).impact(rough, coarse)
-    while law.model.inertia.infinite_plate and edge_heard(run):
+    while law.model.inertia.infinite_plate and wave_returned(run):
         law = wider(law, first, run)
         run = Refinement(law, goal, reach, budget).impact()
     return run
@@ -114,12 +114,13 @@ def _branched(
 ) -> tuple[ContactLaw, DynamicImpact | None]:
     """Return the law with all branches if the higher ones matter, else with the lowest branch.
 
-    They matter if their estimated change exceeds what the goal for the modes leaves of the
-    tolerance. The estimate follows from a rough run with the lowest branch; those from its first
-    contacts or from a radius alone are lower bounds, at which the run may end. The rough run is
-    also returned if the lowest branch is sufficient. If the contact is so short that there would be
-    too many modes, the lowest branch is used. The higher ones also matter if, by this change, the
-    first contact may split or join the next one, and its duration then exceeds the tolerance.
+    They matter if their estimated change exceeds the part of the tolerance that the goal for the
+    modes leaves. The estimate follows from a rough run with the lowest branch. The run may end
+    early, because estimates from its first contacts or from a radius alone are lower bounds. The
+    rough run is also returned if the lowest branch is sufficient. If the contact is so short that
+    there would be too many modes, the lowest branch is used. The higher ones also matter if, by
+    this change, the first contact may split or join the next one, and its duration then exceeds the
+    tolerance.
     """
     outputs = reach.outputs
     every, lowest, close = branching(law, "all"), branching(law, "A0"), time_tolerance(goal)

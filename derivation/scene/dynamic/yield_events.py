@@ -20,18 +20,18 @@ _TRIES, _CLOSE, _NEAR = 6, 1e-13, 1e-9
 from the event over the length of the element."""
 _SAME = 1e-13
 """Relative change of the radius between the end of an element and its event for which the distance
-from the event does not matter."""
+from the event has no effect."""
 _HIGHER = 3e-13
 """Relative excess of the radius over the end of its branch that is due to rounding."""
 _ROUNDING = 1e-15
-"""Size of coefficients that are rounding, over the largest."""
+"""Size of coefficients that are rounding errors, over the largest coefficient."""
 _REAL, _BEGUN, _BEYOND = 1e-7, 1e-9, 1.05
 """Largest imaginary part due to rounding; smallest distance of an event from the start of an
 element, and end of the search in a shortened element, in its variable on [-1, 1]."""
 
 
 class UncutError(ArithmeticError):
-    """The error of an element that cannot be shortened to end at its event."""
+    """The error of an element that cannot be shortened so that it ends at its event."""
 
 
 def next_branch(
@@ -76,7 +76,7 @@ def cut(
     element_of: Callable[[Made], Element],
     shorter: Callable[[float, Array], Made | None],
 ) -> Made | None:
-    """Return an element shortened to end at its first event; None without an event.
+    """Return an element, shortened so that it ends at its first event; None without an event.
 
     A contact begins to yield where its radius exceeds the end of its branch, and ceases to yield
     where its radius is largest.
@@ -144,7 +144,7 @@ def _event(branch: Yielding, unit: float, element: Element, last: float) -> floa
     below = float(np.sum(np.abs(rising[1:]))) < -float(rising[0])  # zero, on [-1, 1]
     if below and last <= 1.0:
         return None
-    # Coefficients that are rounding would make the roots of the companion matrix inaccurate.
+    # Coefficients that are rounding errors would make the roots of the companion matrix inaccurate.
     rising = legtrim(rising, _ROUNDING * float(np.max(np.abs(rising))))
     roots = legroots(rising)
     real = np.sort(roots.real[np.abs(roots.imag) < _REAL])

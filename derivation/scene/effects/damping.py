@@ -1,4 +1,4 @@
-"""Damping: the plate modes dissipate energy; vibration and reflected waves decay."""
+"""Damping: the plate modes dissipate energy, so that vibration and reflected waves decay."""
 
 import math
 from typing import TYPE_CHECKING
@@ -75,7 +75,7 @@ class Damping(Effect):
         If plate vibration determines when and how often the sphere separates, no bound is known.
         Omitting the damping adds the response to 2 zeta omega q', with q of the damped mode. It is
         at most 2 zeta times the variation of q, which is bounded in two parts: that of the
-        quasi-static c P, and that of the ringing, which also cannot change by more than twice its
+        quasi-static c P, and that of the free vibration, whose change is also at most twice its
         amplitude. Random scenes use at most 6 % of the bound.
         """
         none = none_of(context.radii)

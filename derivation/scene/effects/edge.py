@@ -54,7 +54,7 @@ class Edge(PlateEffect):
         return "" if model.edge in (SUPPORTED, CLAMPED) else "the plate has the paper's edge"
 
     def without_change(self, scene: Scene) -> bool:
-        """Return whether the plate has another edge, which no wave reaches if it is infinite."""
+        """Return whether the plate has another edge, but no wave returns from it."""
         return scene.plate.edge in (SUPPORTED, CLAMPED)
 
     def value(self, model: Model, a: float) -> float:
@@ -65,13 +65,13 @@ class Edge(PlateEffect):
     def bound(self, model: Model, context: BoundContext) -> Bound:
         """Return the bound of the law, valid at all smaller radii, plus the error of the law.
 
-        The edge of a plate with h > b acts about as that of one with h = b, while the law becomes
-        smaller or larger. The bound is infinite where the error of the law is unknown.
+        For h > b the true effect of the edge is about that for h = b, while that of the law
+        decreases or increases further. The bound is infinite where the error of the law is unknown.
         """
         a, plate = context.radii, model.correction
         ranges = (self._range(model, a, h) for h in (model.h, np.minimum(model.h, model.b)))
         low, up = (np.maximum(*both) for both in zip(*ranges, strict=True))
-        # Narrower contacts have the same error per force, which goes with a^3.
+        # Narrower contacts have the same error per force, and the force is proportional to a^3.
         known = np.maximum(a, LEAST_A_OVER_B * model.b)
         error = largest_neighbours(model, known, np.minimum(model.eta, LARGEST_H_OVER_B))
         wall = kernels.LATERAL_LINEAR + kernels.LATERAL_CUBIC * (known / model.b) ** 2

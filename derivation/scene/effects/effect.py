@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from derivation.scene.contact_law.law import ContactLaw
 
 NO_BOUND = 10.0
-"""Bound on a relative change from which it is not useful and is shown as 'no bound'."""
+"""Bound on a relative change from which the bound is not useful and is shown as 'no bound'."""
 Array = NDArray[np.float64]
 Numbers = kernels.Numbers
 
@@ -83,7 +83,7 @@ class BoundContext:
         samples = LawSamples(*(x[index] for x in self.samples))
         return BoundContext(self.radii[index], depth, lambda: samples)
 
-    def stretched(self, factor: Numbers | None) -> "BoundContext":
+    def scaled(self, factor: Numbers | None) -> "BoundContext":
         """Return the context with all radii multiplied by a factor."""
         return self if factor is None else replace(self, radii=self.radii * factor)
 
@@ -263,7 +263,7 @@ class Effect:
         """Return whether the bound is proved together with the effects of a law."""
         return True
 
-    def check(self, law: "ContactLaw", asked: bool) -> None:
+    def check(self, law: "ContactLaw", enabled: bool) -> None:
         """Raise an error if a scene includes the effect and cannot compute it.
 
         The message depends on the keys that the scene gives, not on their numbers: it is the same
@@ -273,7 +273,7 @@ class Effect:
         ----------
         law
             The law, with this effect.
-        asked
+        enabled
             Whether the scene enables it.
 
         Raises

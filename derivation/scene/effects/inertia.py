@@ -128,7 +128,7 @@ class PlateInertia(Effect):
         """Return False: tested on random scenes."""
         return False
 
-    def check(self, law: "ContactLaw", asked: bool) -> None:
+    def check(self, law: "ContactLaw", enabled: bool) -> None:
         """Require the density, and only the lowest branch in a viscoelastic contact."""
         model = law.model
         if law.viscous and model.inertia.branches == "all":
@@ -138,7 +138,7 @@ class PlateInertia(Effect):
             )
         if model.density:
             return
-        why = "effects.inertia is true" if asked else "plate inertia may change the results"
+        why = "effects.inertia is true" if enabled else "plate inertia may change the results"
         raise SceneError(
             f"plate.density: expected a density because {why}, got none; give plate.density "
             "[kg/m^3], or set effects.inertia = false for a quasi-static plate"
@@ -174,8 +174,8 @@ def higher_branch_error(model: Model, a: Numbers, T: Numbers, loss_factor: float
     a, T
         Contact radius [m] and time [s]. Bending lengthens the contact, but the force starts as
         suddenly as without bending: P'' is of the order of P/(T T_alone). On a compliant plate the
-        force rises and falls in a fraction lambda^(-2/3) of that time; if the contact continues,
-        this excites thickness vibration, which decreases with the duration of the contact.
+        force rises and falls in a fraction lambda^(-2/3) of that time. This excites thickness
+        vibration, which decreases with the duration of the contact if the contact continues.
     loss_factor
         Loss factor of the plate modes [1]; it dissipates part of the returning waves, at most all.
         The change grows with it: with a loss factor of 1.5 one random scene exceeded the bound
@@ -216,8 +216,8 @@ def total_deviation(
 ) -> Array:
     """Return a deviation from the quasi-static response to a unit force [m/N], of all modes.
 
-    Wave numbers are (n - 1/4) pi/b. Frequencies are those of a thin plate, limited by those of
-    Rayleigh waves: neither a zero of J_0 nor a root of the branch is computed.
+    Wave numbers are approximated by (n - 1/4) pi/b, and frequencies by those of a thin plate,
+    limited by those of Rayleigh waves. Neither zeros of J_0 nor roots of the branch are computed.
 
     Parameters
     ----------

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 MAX_A_OVER_H = 6.0
 """Contact radius over half-thickness at which contact may be lost at the centre."""
 MAX_A_OVER_R = 0.95
-"""Contact radius over sphere radius up to which the pressure is resolved."""
+"""Contact radius over sphere radius up to which the quadrature resolves the pressure."""
 BOUND_A_OVER_B = 0.4
 """Largest contact radius over plate radius for which the bound is valid."""
 BOUND_THETA = 0.2

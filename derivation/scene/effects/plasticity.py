@@ -97,7 +97,7 @@ def _restitution(model: Model, context: BoundContext, ratio: Array) -> Array:
     kept = worked(np.maximum(ratio[..., -1:], 1.0))[1]
     energy = 1.0 + weight_work_ratio(model, plastic_depth(model, context))
     lost = energy * (1.0 - np.square(kept))
-    # Without weight the restitution itself, to the last bit.
+    # Without gravity this is the restitution itself, to the last bit.
     return np.where(energy > 1.0, np.sqrt(np.maximum(1.0 - lost, 0.0)), kept)
 
 

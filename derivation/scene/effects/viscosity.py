@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from derivation.scene.contact_law.law import ContactLaw
 
 MARGIN = 1.05
-"""Factor on the largest values along the law, which are sampled."""
+"""Factor on the largest values along the law, because these are sampled."""
 DISSIPATION = 1.2, 0.4
 """Coefficients of x_v and x_v^2 in a bound on 1/e - 1, e the restitution of Hertz's contact."""
 VIBRATION = 1000.0
@@ -92,7 +92,8 @@ def on_vibrating_plate(changes: Changes, inertia: Numbers) -> Changes:
     """Return the changes of the results on a plate with inertia, from those on one without.
 
     On a light or compliant plate the contact outlasts many oscillations of sphere and plate on the
-    stiffness of the contact. Each of them loses as much as a whole impact, which changes the force.
+    stiffness of the contact. Each of them dissipates as much energy as a whole impact, which
+    changes the force.
 
     Parameters
     ----------

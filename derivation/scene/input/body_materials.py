@@ -44,7 +44,7 @@ class Body(NamedTuple):
     yield_stress
         Yield stress [Pa]; infinite if unknown.
     solid_density
-        Density of the material [kg/m^3], whatever the table gives; 0 if unknown.
+        Density of the material [kg/m^3], even if the table gives another one; 0 if unknown.
     lightest
         Density below which no solid has these elastic constants [kg/m^3]; 0 for a rigid body.
     """

@@ -29,7 +29,7 @@ OF_MATERIAL = (
     *("plate.loss_factor", "measured.restitution"),
 )
 """Constants that a scene gives for the material of a body, besides elastic constants. The measured
-restitution is that of the plate's material."""
+restitution belongs to the material of the plate."""
 
 
 def varied_key(place: str) -> str:
@@ -220,7 +220,7 @@ def _varied_keys() -> list[str]:
 
 
 def _instead(table: type[Table], key: str) -> set[str]:
-    """Return the keys that exclude a key: half_thickness for thickness, mass for density."""
+    """Return the keys that exclude a key, such as half_thickness for thickness."""
     return {
         other
         for groups in (*table.choices, *table.options)

@@ -45,7 +45,7 @@ EXPECTED = {
     "solve_for": '"yield_stress" or "retardation_time"',
     "target": '"block" or "plate"',
 }
-"""Expected value of each key that does not hold a positive number."""
+"""Expected value of each key whose value is not a positive number."""
 
 OWN_MATERIALS = "materials"
 """Name of the table that contains the tables of own materials."""
@@ -144,7 +144,7 @@ def explain(kind: str, location: tuple[int | str, ...], value: Any, fields: Fiel
     ----------
     kind
         Pydantic's name of the error.
-    place
+    location
         Table and key.
     value
         The given value.

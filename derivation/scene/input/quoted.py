@@ -7,9 +7,9 @@ PREFIXES = {
     "n": 1e9, "u": 1e6, "µ": 1e6, "μ": 1e6, "m": 1e3, "c": 1e2, "": 1.0, "k": 1e-3, "M": 1e-6,
     "G": 1e-9,
 }  # fmt: skip
-"""SI prefixes, by what a number with the prefix is divided by."""
+"""SI prefixes, with the number by which a value with the prefix is divided."""
 BASES = {"m": ("m",), "s": ("s", "sec"), "Pa": ("Pa",), "kg": ("g",), "m/s": ("m/s",)}
-"""Units that take a prefix, by the unit of the key; the gram is that of the kilogram."""
+"""Units that take a prefix, by the unit of the key; for the kilogram this is the gram."""
 OTHERS = {
     "m": {"in": 1.0 / 0.0254, "inch": 1.0 / 0.0254, "ft": 1.0 / 0.3048},
     "m/s": {"km/h": 3.6},
@@ -18,7 +18,7 @@ OTHERS = {
     "kg/m^3": {"g/cm^3": 1e-3, "g/cc": 1e-3, "kg/dm^3": 1e-3, "t/m^3": 1e-3},
     "1": {"%": 100.0},
 }
-"""Other units by the unit of the key, with the size of that one in them."""
+"""Other units by the unit of the key, each with the size of the unit of the key in it."""
 
 
 def in_unit(text: str, unit: str) -> float | None:

@@ -207,7 +207,7 @@ def problems(
 
     Parameters
     ----------
-    found
+    mistakes
         Errors of single keys.
     data
         The given tables by name.

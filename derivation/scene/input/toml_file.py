@@ -39,7 +39,7 @@ def read_toml(path: str | Path, kind: str, remedy: str, example: str) -> dict[st
     """
     name, text = name_of(path), ""
     try:
-        # Some editors begin a file with a byte-order mark, which TOML does not know.
+        # Some editors begin a file with a byte-order mark, which TOML does not allow.
         text = read_file(Path(path), LARGEST).decode("utf-8-sig")
         return tomllib.loads(text)
     except OSError as error:

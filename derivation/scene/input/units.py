@@ -1,7 +1,7 @@
 """Finds stated values that no solid has, which are probably given in other units than SI.
 
-Scenes in other consistent units are valid, so that these are warnings. A message of a scene that
-cannot be simulated begins with them, because a wrong unit is then the likely cause.
+Scenes in other consistent units are valid; therefore these are warnings, not errors. A message of a
+scene that cannot be simulated begins with them, because a wrong unit is then the likely cause.
 """
 
 from collections.abc import Iterator, Mapping
@@ -22,8 +22,8 @@ SOFTEST, STIFFEST = 1e4, 1.3e12
 LIGHTEST, DENSEST = 10.0, 2.3e4
 """Densities of solids [kg/m^3], from foams to osmium."""
 SLOWEST, FASTEST = 10.0, 2e4
-"""Speeds sqrt(E/rho) [m/s], from gels to diamond. The speed of a modulus in MPa or of a density in
-g/cm^3 is outside, where the value itself is not."""
+"""Speeds sqrt(E/rho) [m/s], from gels to diamond. With a modulus in MPa or a density in g/cm^3 the
+speed is outside this range, even if the value itself is within its own range."""
 WEAKEST, STRONGEST = 1e-6, 0.2
 """Yield stress or strength over Young's modulus [1]."""
 BALL, PLATE, FAST = 2.0, 100.0, 1000.0
@@ -55,7 +55,7 @@ class UnusualValue(NamedTuple):
     others
         Units that may be meant, with their size in SI units.
     least, most
-        Limits within which a value in the unit that is meant must be.
+        Limits of the value in SI units if one of the other units is meant.
     """
 
     key: str

@@ -35,7 +35,7 @@ FURTHEST, POLISHES = 0.2, 6
 """Largest change of the logarithm of a constant after the search, and largest number of
 simulations."""
 ENOUGH = 1.6
-"""Tolerance that a message recommends over the error bound: both increase together."""
+"""Tolerance that a message recommends, over the error bound, which increases with the tolerance."""
 NEGLIGIBLE = 0.01
 """Error due to a constant over the tolerance below which a message does not state it."""
 CHANGE = 1e-2
@@ -225,7 +225,7 @@ def _with_inertia(measured: Measurement, rtol: float | None) -> Fit:
     """
     first = rough_value(measured.to(LOOSE))
     slope, ratio = (0.0, LEAST_RATIO) if first is None else _sensitivities(measured, first)
-    if not slope:  # the rough value causes no loss, but the accurate one may
+    if not slope:  # with the rough value no energy is lost, but with the accurate one it may be
         first, ratio = None, LEAST_RATIO
     parts = 2.0 + (1.0 + AGREES) * ratio
     accurate = measured.to(DEFAULT if rtol is None else rtol / parts)
@@ -301,7 +301,7 @@ def _polished(
 
 
 def inaccurate_constant(scene: "Scene", rtol: float | None, error: ToleranceError) -> SceneError:
-    """Return the error of results that do not meet what a fitted constant leaves of a tolerance.
+    """Return the error of results that miss the tolerance because of a fitted constant.
 
     Parameters
     ----------

@@ -2,7 +2,7 @@
 
 On a thick block the solution is unique: restitution decreases with decreasing yield stress and with
 increasing retardation time. On a plate that bends, an infinite retardation time leaves an elastic
-plate: the solution with the smaller one is returned, if there is any.
+plate; there may be two solutions, and the one with the smaller retardation time is returned.
 """
 
 import math
@@ -48,8 +48,8 @@ RISING = 3
 """Number of steps in which restitution increases, from which it has passed its smallest value."""
 ROUGH, OF_LOSS, LEAST = 1e-2, 0.2, 1e-4
 """Relative difference from the measured restitution that ends a rough search; the same over the
-relative difference from that without loss, near which it hardly determines the constant; the least
-such difference."""
+relative difference between the measured restitution and that without loss, which is small if the
+restitution hardly determines the constant; the smallest such difference."""
 AGREES = 0.1
 """Relative difference from the measured restitution that suffices, over the error bound."""
 CLEARLY = 1.01
@@ -190,7 +190,8 @@ class Measurement:
     def rough_value(self, lossless: Trial) -> float:
         """Return a value at which the restitution is about the measured one.
 
-        It differs by `ROUGH`, or by a part of what the constant reduces it if this is less.
+        The relative difference is `ROUGH`, or less if the constant reduces the restitution only
+        little.
 
         Parameters
         ----------
@@ -202,7 +203,7 @@ class Measurement:
         UnreachedError
             If no trial value encloses it; perhaps only because the tolerance is large.
         """
-        if not self.goal < lossless.restitution:  # perhaps it is unknown
+        if not self.goal < lossless.restitution:  # it may be unknown
             raise UnreachedError("", -math.inf, 0.0)
         reduced = 1.0 - self.goal / lossless.restitution
         close = max(LEAST, min(ROUGH, OF_LOSS * reduced))
@@ -212,7 +213,7 @@ class Measurement:
             if abs(near.above) <= close * self.goal or abs(high.x - low.x) <= ROUGH:
                 return math.exp(near.x)
             x = (low.x * high.above - high.x * low.above) / (high.above - low.above)
-            # Not at an end again, where the restitution is curved.
+            # Not at an end of the interval again, near which the restitution is not linear.
             margin = 0.1 * (high.x - low.x)
             point = self._point(min(max(x, low.x + margin), high.x - margin))
             low, high = (point, high) if point.above * low.above > 0.0 else (low, point)
@@ -229,7 +230,7 @@ class Measurement:
         sign = math.copysign(1.0, high.above)
 
         def above(x: float) -> float:
-            """Return the difference of the restitution with the sign that rises; 0 within error."""
+            """Return an increasing difference from the measured restitution; 0 within its error."""
             point = self._point(x)
             error = point.above + self.goal - point.least
             return 0.0 if abs(point.above) <= AGREES * error else sign * point.above
@@ -249,7 +250,7 @@ class Measurement:
             kind, remedy = IncompleteTrialError if incomplete else SceneError, ""
             if isinstance(error, WideContactError):
                 kind = WideTrialError if error.ratio > CLEARLY else SceneError
-                # The speed that it names is that for a given constant, not for the restitution.
+                # The speed in this message is that for a given constant, not for the restitution.
                 of_goal = error.remedy
                 if isinstance(of_goal, Slower):
                     of_goal = replace(of_goal, speed=0.0)
@@ -308,7 +309,8 @@ class Measurement:
             if not falling or now.above <= points[-2].above:
                 rising = 0
                 continue
-            # An elastic plate under a contact that hardly moves returns the energy again.
+            # If the contact hardly deforms, the elastic plate returns the energy, and restitution
+            # increases.
             rising += 1
             if rising == 1 and len(points) > 2:
                 lowest = self._point(vertex(*points[-3:]))

@@ -98,7 +98,7 @@ def _by_few(few: Measurement, half: Measurement, lossless: Trial) -> float | Non
         return few.rough_value(lossless)
     except UnreachedError as unreached:
         smallest = unreached
-    except SceneError:  # few modes may fail where more do not
+    except SceneError:  # simulations with few modes may fail where those with more do not
         return None
     if not few.goal < (1.0 - ROUGHLY) * smallest.least:
         return None

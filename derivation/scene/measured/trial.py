@@ -14,7 +14,7 @@ class UnreachedError(SceneError):
     least
         The smallest restitution less its error bound [1].
     value
-        The constant that gives it, about; 0 if it is unknown.
+        The approximate constant that gives it; 0 if it is unknown.
     """
 
     def __init__(self, text: str, least: float, value: float) -> None:

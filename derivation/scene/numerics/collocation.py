@@ -92,7 +92,7 @@ def newton_step(
 
 
 def _falls(row: Array) -> Array:
-    """Return the places in [-1, 1] where a Legendre series falls through zero, ascending."""
+    """Return the points in [-1, 1] where a Legendre series decreases through zero, ascending."""
     roots = legroots(row)
     inner = np.sort(roots.real[(np.abs(roots.imag) < _REAL) & (np.abs(roots.real) <= 1.0)])
     return np.asarray(inner[legval(inner, legder(row)) < 0.0])

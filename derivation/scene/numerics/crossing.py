@@ -1,4 +1,4 @@
-"""Where a function of one variable rises through zero, or a condition ceases to hold."""
+"""Finds where a function of one variable increases through zero, or a condition becomes false."""
 
 import math
 from collections.abc import Callable
@@ -15,9 +15,9 @@ class _Point(NamedTuple):
 
 
 def last_true(holds: Callable[[float], bool], low: float, high: float, halvings: int) -> float:
-    """Return a number at which a condition holds, just below one at which it does not.
+    """Return a number at which a condition is true, just below one at which it is false.
 
-    The condition holds at `low` and not at `high`, whose distance is halved.
+    The condition is true at `low` and false at `high`; the interval between them is halved.
     """
     for _ in range(halvings):
         middle = 0.5 * (low + high)
@@ -26,10 +26,10 @@ def last_true(holds: Callable[[float], bool], low: float, high: float, halvings:
 
 
 def rise(of: Callable[[float], float], low: float, high: float, close: float = 0.0) -> float:
-    """Return where a function rises through zero, to a few ULP or to an accuracy that suffices.
+    """Return where a function increases through zero, to a few ULP or to a given accuracy.
 
-    It is not negative at the result, and negative just below it. Each step is one of inverse
-    quadratic interpolation where it can be trusted, or of halving (Chandrupatla 1997).
+    It is not negative at the result, and negative just below it. Each step uses inverse quadratic
+    interpolation if this is reliable, or halves the interval (Chandrupatla 1997).
 
     Parameters
     ----------
@@ -37,7 +37,8 @@ def rise(of: Callable[[float], float], low: float, high: float, close: float = 0
         A function that is not negative at `high`. If it is not negative at `low` either, the
         interval is halved towards it until the function is negative.
     close
-        Error of the result that suffices. If it is above 0, any zero that is found suffices, too.
+        Sufficient accuracy of the result. If it is above 0, any zero that is found is sufficient,
+        too.
     """
     below, above, part = _Point(low, of(low)), _Point(high, of(high)), 0.5
     for _ in range(_STEPS):

@@ -11,7 +11,7 @@ from generated.arrays import Double as Array
 NODES = (24, 48, 96, 192)
 """Numbers of nodes, tried in this order."""
 MORE_TIMES = (384, 768, 1536)
-"""Numbers of nodes in time for a slow, heavy sphere, whose motion starts abruptly."""
+"""Numbers of nodes in time for a slow, heavy sphere, whose motion changes fast at the start."""
 
 
 class Rule(NamedTuple):

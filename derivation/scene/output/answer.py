@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from derivation.scene.result import Result
 
 UNLIKE = 0.5
-"""Smallest over largest model error of the results below which the largest one is named."""
+"""Ratio of the smallest to the largest model error, below which the result with the largest is
+named."""
 CONTACT_HEADS = "#start [s]", "#end [s]", "#impulse [N s]", "#peak force [N]", "#speed ratio"
 """Column heads of the table of contacts."""
 
@@ -101,7 +102,7 @@ def _remarks(result: "Result") -> Iterator[str]:
         )
     if result.strength_note:
         yield f"Strength: {result.strength_note}"
-    if not result.effects.law.viscous:  # its pressure is known only in part
+    if not result.effects.law.viscous:  # only the elastic part of its pressure is computed
         largest = largest_within_error(result, "max_pressure")
         # A yielding contact does not exceed the limit of the softer body.
         pressure = min(largest, result.effects.law.pressure_limit)

@@ -59,7 +59,7 @@ class PaperMotion:
     valid_fraction: float | None
 
     def __getattr__(self, name: str) -> Any:
-        """Answer an old name with the new one."""
+        """Raise an error that names the new name of an attribute."""
         hint = f"; it is now called {OLD_NAMES[name]}" if name in OLD_NAMES else ""
         raise AttributeError(f"PaperMotion has no attribute {name}{hint}")
 

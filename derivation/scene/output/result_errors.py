@@ -1,4 +1,4 @@
-"""Bound on the error of each single result, and the number of its digits that hold."""
+"""Error bound of each single result, and the number of its significant digits."""
 
 import math
 from typing import TYPE_CHECKING
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 FORCE, PLASTICITY = "max_force", "plasticity"
 RESULTS = (*OUTPUTS, "max_pressure", "max_tensile_stress", "total_time", "dent")
 SAME_ERROR = {"max_pressure": "max_contact_radius"}
-"""The result whose model error another one has: p_0 is proportional to a."""
+"""For max_pressure, the result with the same relative model error: p_0 is proportional to a."""
 ONSET = 2.0
 """Power in which omitted effects change the largest force's Hertz radius over that at the onset of
 yield. Elasticity s of the sphere changes this ratio by the power -2/3 of 1 + s, and the contact
@@ -49,8 +49,8 @@ def bound_of(result: "Result", name: str) -> float:
 def digits_of_result(result: "Result", name: str) -> int:
     """Return the significant digits that bound and model error of a result support.
 
-    A known number of the model has at least one digit, whatever the model error. A result without a
-    bound has none, unless no result has a bound.
+    A result with an error bound has at least one digit, even if its model error is large. A result
+    without a bound has none, unless no result has a bound.
     """
     bound = bound_of(result, name)
     if math.isinf(bound) and math.isfinite(result.accuracy.bound):
@@ -68,7 +68,7 @@ def _error_of(result: "Result", name: str, bound: float) -> float:
 
 
 def largest_within_error(result: "Result", name: str) -> float:
-    """Return a result in its unit, increased by its error unless this is unknown."""
+    """Return a result in its unit, increased by its error if this is known."""
     error = _error_of(result, name, bound_of(result, name))
     return float(getattr(result, name)) * (1.0 + (error if math.isfinite(error) else 0.0))
 

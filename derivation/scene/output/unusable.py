@@ -1,4 +1,4 @@
-"""Says which results are not usable because of their model error, and what makes them usable."""
+"""States which results are not usable because of their model error, and how to make them usable."""
 
 import math
 from typing import TYPE_CHECKING
@@ -33,7 +33,7 @@ def unusable(result: "Result") -> tuple[str, ...]:
 
 
 def in_words(result: "Result") -> str:
-    """Return which results are not usable, why, and what makes them usable.
+    """Return which results are not usable, why, and how to make them usable.
 
     Empty if all are usable, or not because of other errors than those by stretching of the plate
     and by different retardation times of sphere and plate.

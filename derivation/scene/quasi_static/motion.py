@@ -85,8 +85,8 @@ class EnergyBalance:
         ----------
         error
             Relative error of the restitution [1]; that of the energies is twice as large. All are
-            rounded to the last digit of the largest one that holds, but a smaller energy of the
-            sphere has its own last digit.
+            rounded to the last significant digit of the largest one, but a smaller energy of the
+            sphere is rounded to its own last significant digit.
         """
         parts = {
             "sphere": self.rebound_kinetic,
@@ -262,7 +262,8 @@ def _start(law: ContactLaw, goal: Array) -> Array:
     model = law.model
     log_radius = 0.2 * (goal + math.log(5.0))  # Hertz: the energy is K a^5/5
     if law.bends:
-        # Bending: d delta/da is (3/2) a/(4 pi eta^2 h) times Hertz's, the energy goes with a^6/6.
+        # Bending: d delta/da is (3/2) a/(4 pi eta^2 h) times Hertz's; the energy is proportional to
+        # a^6/6.
         steep = math.log(16.0 * math.pi) + np.log(model.h) + 2.0 * np.log(model.eta)
         log_radius = np.minimum(log_radius, (goal + steep) / 6.0)
     return np.exp(np.clip(log_radius, -700.0, 700.0))
@@ -357,7 +358,7 @@ def _history(law: ContactLaw, motion: Motion, times: Array) -> tuple[Array, Arra
     grid = np.linspace(-1.0, 1.0, 401)
     u = np.interp(since, legval(grid, elapsed), grid)
     for _ in range(_NEWTON):
-        # At both ends the rate may be exactly zero; u is exact there.
+        # At both ends the rate may be exactly zero, and u is exact.
         off, slope = legval(u, elapsed) - since, legval(u, rate)
         step = np.divide(off, slope, np.zeros_like(u), where=slope != 0.0)
         u = np.clip(u - 2.0 * step, -1.0, 1.0)

@@ -58,13 +58,13 @@ def impact(law: ContactLaw) -> PlasticMotion:
     rough, fine = (_motion(problem, n) for n in STAGES)
     pairs = zip(fine.numbers, rough.numbers, strict=True)
     change = max(abs(new / old - 1.0) for new, old in pairs)
-    # Both runs have the same tolerance, and may differ by less than their errors. The energy
-    # balance shows the error of the speed.
+    # Both runs have the same tolerance, and may differ by less than their errors; therefore the
+    # error of the speed from the energy balance is also used.
     return replace(fine, quadrature=change + _speed_error(fine))
 
 
 def _speed_error(motion: PlasticMotion) -> float:
-    """Return twice the relative error of the final speed that the energy balance shows [1]."""
+    """Return twice the relative error of the final speed by the energy balance [1]."""
     balance = motion.energy_balance
     if balance is None or not balance.initial_kinetic * balance.rebound_kinetic > 0.0:
         return 0.0  # energies below the smallest double

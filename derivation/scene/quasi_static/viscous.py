@@ -224,7 +224,8 @@ def elements(problem: ViscousProblem, n: int) -> tuple[ViscousElement, ...]:
         last, end = made
         own = np.max(np.abs(last.rows), axis=1, keepdims=True)
         largest = np.maximum(scale, own)
-        # At the end of contact the radius must be accurate relative to itself: it gives the time.
+        # At the end of contact the radius needs a small relative error, because it determines the
+        # time.
         unit = np.vstack((OWN * own[A], largest[V:LOST]))
         error = float(np.max(np.abs(last.rows[:LOST, -2:]) / unit))
         change = 0.9 * (TOLERANCE / max(error, 1e-300)) ** (1.0 / n)

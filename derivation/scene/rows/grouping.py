@@ -1,4 +1,4 @@
-"""Groups of almost equal scenes, for which one of them can decide."""
+"""Groups of almost equal scenes, for which one scene can decide the selection."""
 
 import math
 from dataclasses import fields
@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from derivation.scene.model import Model
 
 WIDTHS = 0.04, 0.08, 0.16
-"""Sums of the differences of the logarithms of the numbers within a group: the first with few
-groups is taken."""
+"""Sums of the differences of the logarithms of the numbers within a group; the first sum that gives
+few groups is used."""
 POWER = 17.0
 """Power of a number with which bounds may grow. If two bounds of a scene differ by more than a
 factor of exp(POWER width), the same one is larger in the whole group."""

@@ -219,7 +219,7 @@ class _Block:
             table.results[name][index] = number
 
     def _add_unit_warnings(self, rows: NDArray[np.intp]) -> None:
-        """Begin the reasons of rows with the warnings about their units."""
+        """Put the warnings about units in front of the reasons of rows."""
         scene = self._readable(rows[:1].tolist())
         if scene is None:
             return
@@ -303,7 +303,7 @@ class _Block:
             }
             known = np.all([np.isfinite(x) & (x > 0.0) for x in list(numbers.values())[:4]], axis=0)
             known &= np.broadcast_to(a < law.limit, a.shape)[:, 0]
-        if rtol is not None:  # other rows do not meet the tolerance, or only just
+        if rtol is not None:  # other rows do not meet the tolerance, or too narrowly
             known &= bound <= rtol - ROUNDING
         deflection = impacts.max_indentation[:, None] - local_indentation(law, a)
         model_error = np.broadcast_to(stretching(law.model, deflection), a.shape)[:, 0]

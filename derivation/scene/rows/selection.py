@@ -43,7 +43,7 @@ class Group:
     law
         Law of the rows, with columns of numbers.
     held
-        Whether the stress on the back face is that with the edge of the scene.
+        Whether the stress on the back face is computed with the edge of the scene.
     error
         Bound on the relative change by all omitted effects together, for each row.
     omitted
@@ -63,7 +63,7 @@ class Group:
 
 @dataclass(frozen=True)
 class Rejected:
-    """Rows that an included effect cannot be computed for, because a key is missing."""
+    """Rows for which an included effect cannot be computed, because a key is missing."""
 
     rows: Rows
     reason: str
@@ -115,7 +115,7 @@ def selected(
 
 
 def _cache(given: Candidates, model: Model) -> None:
-    """Compute what the bounds need, once for all parts of the model."""
+    """Compute the values that all bounds need, once for all parts of the model."""
     present = {effect.name for effect in given.present}
     if present & WHOLE_PLATE:
         _ = model.correction
@@ -128,7 +128,7 @@ def _cache(given: Candidates, model: Model) -> None:
 def _begun(
     given: Candidates, model: Model, rtol: Array, outputs: Sequence[str]
 ) -> dict[frozenset[str], list[Rows]]:
-    """Return the rows by effects that they include for certain."""
+    """Return the rows by the effects that they certainly include."""
     rows = np.arange(len(rtol))
     groups = groups_of(model, len(rtol)) if rtol.min() == rtol.max() else None
     if groups is None:
@@ -200,7 +200,7 @@ def _evaluated(
 
 
 def _alike(model: Model, count: int) -> list[Rows]:
-    """Group rows to which the same effects apply: the same numbers are zero or infinite."""
+    """Group rows to which the same effects apply, because the same numbers are zero or infinite."""
     kinds = np.zeros(count, dtype=np.int64)
     for field in fields(model):
         value = getattr(model, field.name)
@@ -254,7 +254,7 @@ def _errors(
     state, open_ = state_of(law), given.left(law.effects)
     error, fine = errors_of(state, open_, outputs)[:, 0], np.ones(len(rtol))
     for effect in open_:
-        if effect.name in given.blocked:  # `check_omitted` may refuse such a row
+        if effect.name in given.blocked:  # `check_omitted` may reject such a row
             fine *= errors_of(state, [effect], outputs)[:, 0] <= rtol
     candidates = [effect for effect in open_ if effect.name not in given.blocked]
     if len(candidates) < 2 or (error <= rtol).all():
@@ -263,7 +263,7 @@ def _errors(
 
 
 def _held(given: Candidates) -> bool:
-    """Return whether the plate has the edge of the scene."""
+    """Return whether the stress is computed with the edge of the scene."""
     disabled = (e for e in given.present if given.choice[e.name] is False)
     return not any(effect.other_edge for effect in disabled)
 

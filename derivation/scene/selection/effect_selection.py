@@ -42,7 +42,7 @@ class EffectRow:
     Attributes
     ----------
     name, adds
-        Name of the effect, and what it adds to the model.
+        Name of the effect, and its contribution to the model.
     parameter, parameter_value
         Its dimensionless parameter, and the value in this scene [1]; NaN if it does not apply.
     bound

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from derivation.scene.dynamic.wave_motion import DynamicImpact
 
 CERTAIN = 0.75
-"""Bound on an output over the tolerance up to which a message states that it meets it alone: with
+"""Bound on an output over the tolerance, up to which a message states that it meets it alone: with
 fewer outputs the simulation may end with fewer modes."""
 SEARCHES, LARGER = 20, 1.05
 """Largest number of tolerances that are considered for a message, and the least ratio of two."""
@@ -182,7 +182,7 @@ def _met(
 def growth_of(motion: "DynamicImpact | None") -> Results:
     """Return the factors by which a simulated impact increases the bounds on each result [1].
 
-    A plate may take nearly all energy. What then remains of the speed changes by a multiple. Also,
+    A plate may take nearly all energy. The small remaining speed then changes by a multiple. Also,
     between contacts a change of the speed displaces the sphere, which then meets the plate at
     another phase of its vibration, and the weight acts during flight. This changes the restitution,
     and the largest values if they may be those of a later contact.

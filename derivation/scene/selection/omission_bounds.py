@@ -60,7 +60,8 @@ or are viscoelastic it was 5 to 312, which `_plastic_sensitivity` and the bound 
 in all random scenes the restitution changed by at most 0.54 of its whole bound."""
 WEIGHT = 8.0
 """Change of the restitution e by the impulse of the weight, over its work over the kinetic energy.
-The plate may carry the sphere for long: at most 5.0 in 326 random scenes with e below 0.12."""
+It is large because the sphere may stay on the plate for a long time: at most 5.0 in 326 random
+scenes with e below 0.12."""
 
 
 @dataclass(frozen=True)
@@ -91,7 +92,7 @@ class LargestContact:
     rise: Array
     growth: Array
     bounds: dict[tuple[str, bool], Bound] = field(default_factory=dict, compare=False)
-    """Bounds computed so far, by effect and whether the radii were stretched."""
+    """Bounds computed so far, by effect and whether the radii were scaled."""
 
     @cached_property
     def by_inertia(self) -> Changes:
@@ -135,7 +136,7 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
     growth = np.ones_like(rise)
     if law.plastic:  # derivation step 31: S grows with xi, and a^2 with xi^3
         rise, growth = rise + 1.0, PLASTIC_GROWTH * growth
-    if own:  # P goes with the cube of Hertz's radius, and dP = 2 E* a_H d delta/S.
+    if own:  # P is proportional to the cube of Hertz's radius, and dP = 2 E* a_H d delta/S.
         with np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
             swelling = inner.slope / (inner.additive * np.cbrt(inner.force) ** 2)
             growth = growth * (1.0 + MARGIN * np.maximum(0.0, _most(1.0 / swelling) - 1.0))
@@ -196,16 +197,16 @@ def _samples(law: ContactLaw, top: Array) -> LawSamples:
         )
 
 
-def bound_of(state: LargestContact, effect: Effect, stretch: Numbers | None = None) -> Bound:
-    """Return the bound of an effect; `stretch` multiplies the radii (elasticity of the sphere)."""
-    key = effect.name, stretch is not None
+def bound_of(state: LargestContact, effect: Effect, scale: Numbers | None = None) -> Bound:
+    """Return the bound of an effect; `scale` multiplies the radii (elasticity of the sphere)."""
+    key = effect.name, scale is not None
     if key not in state.bounds:
         with np.errstate(all="ignore"):
-            state.bounds[key] = _bound(state, effect, stretch)
+            state.bounds[key] = _bound(state, effect, scale)
     return state.bounds[key]
 
 
-def _bound(state: LargestContact, effect: Effect, stretch: Numbers | None) -> Bound:
+def _bound(state: LargestContact, effect: Effect, scale: Numbers | None) -> Bound:
     """Compute the bound of an effect.
 
     Damping does not change the slope of the law at any radius. Its bound is one of the results
@@ -214,10 +215,10 @@ def _bound(state: LargestContact, effect: Effect, stretch: Numbers | None) -> Bo
     if effect.damps and state.law.dynamic:
         still = state_of(_quasi_static(state.law))
         none = np.zeros_like(state.context.radii)
-        bound = _bound(still, effect, stretch)
+        bound = _bound(still, effect, scale)
         known = not np.all(np.isnan(still.a)) and np.all(np.isfinite(bound.up))
         return Bound(none, none, results=bound.results if known else 5 * (math.inf,))
-    context, model = state.context.stretched(stretch), state.law.model
+    context, model = state.context.scaled(scale), state.law.model
     if effect.takes_rows or context.radii.ndim == 1:
         bound = effect.bound(model, context)
     else:
@@ -266,8 +267,8 @@ def errors_of(state: LargestContact, effects: Sequence[Effect], outputs: Sequenc
     if lost.all():
         return np.full_like(state.growth, np.inf)
     elastic = [e for e in effects if np.any(e.softness(state.law.model))]
-    stretch = np.exp(bound_of(state, elastic[0]).radius) if elastic else None
-    bounds = [bound_of(state, e, None if e in elastic else stretch) for e in effects]
+    scale = np.exp(bound_of(state, elastic[0]).radius) if elastic else None
+    bounds = [bound_of(state, e, None if e in elastic else scale) for e in effects]
     # Half-space effects multiply; for the others the product is an upper bound of the sum.
     with np.errstate(over="ignore"):
         up = np.asarray(math.prod(1.0 + bound.up for bound in bounds))

@@ -148,8 +148,10 @@ def candidates_of(model: Model, wanted: Mapping[str, Any]) -> Candidates:
         If the scene enables an effect and disables an effect that it requires.
     """
     without = {e.name: f"effects.{e.within} = false" for e in EFFECTS if _disabled(e, wanted)}
-    asked = {e.name for e in EFFECTS if not e.selectable and wanted.get(e.name) is True}
-    reasons = {e.name: "" if e.name in asked else e.not_applicable_reason(model) for e in EFFECTS}
+    requested = {e.name for e in EFFECTS if not e.selectable and wanted.get(e.name) is True}
+    reasons = {
+        e.name: "" if e.name in requested else e.not_applicable_reason(model) for e in EFFECTS
+    }
     reasons = {name: reason or without.get(name, "") for name, reason in reasons.items()}
     blocked = _blocked(wanted)
     present = [effect for effect in EFFECTS if not reasons[effect.name]]

@@ -8,7 +8,7 @@ from derivation.scene.code.runtime.hertz_law import _law
 
 
 def _start(v0: float, unit: float, time: float) -> tuple[np.ndarray, np.ndarray, float]:
-    """Return a^3, velocity, indentation and t^(1/3) at the onset, their units, the first step."""
+    """Return a^3, velocity, indentation, t^(1/3) at the onset; their units; the first step."""
     state, root = np.array([[0.0], [v0], [0.0], [0.0]]), np.cbrt(time)
     return state, np.array([[unit**3], [v0], [v0 * time], [root]]), 0.2 * float(root)
 

@@ -27,7 +27,7 @@ SMALLEST = -150
 
 SMALL = (SMALLEST, -120, -100, -77, -60, -50, -40, -30, -25, -20, -16, -14, -12, -10, -8, -7, -6)
 LARGE = (36.04, 88.7, 100.0, 177.0, 300.0, 354.5, 372.0, 700.0, 708.3, 709.8, 745.1, 1e3, 1e4, 1e6)
-"""Values up to and beyond overflow or underflow of e^x, e^(2x), e^(4x) in either format."""
+"""Values below and above overflow or underflow of e^x, e^(2x), e^(4x) in either format."""
 
 NU = (0.3, 0.0, 0.45, -0.2, 0.33, -0.6, 0.1, 0.499, 0.21, -0.9, 0.4999, 0.49999999, -0.999)
 LENGTHS = (1.0, 1e-3, 25.4, 3e-7, 640.0)
@@ -37,7 +37,7 @@ STRESSES = (8.1e10, 1.0, 7.7e4, 2.6e-3)
 """Scales of stress: steel in Pa, unit modulus, steel in MPa, and a gel in MPa."""
 
 HEIGHTS = (None, 1.0, None, -1.0, None, 0.0, None, "below +1", None, "above -1", None, 1e-9, None)
-"""z/h; None is drawn at random, and words stand for the doubles next to the faces."""
+"""z/h; None stands for a random value, and words for the doubles next to the faces."""
 
 RADII = (None, 0.0, None, 1e-12, None, "below +1", None, 0.5, None)
 """r/a of the pressure, whose edge r = a is singular, and r/b of the modal sums."""

@@ -47,7 +47,7 @@ def diagnose_series(name: str, term: sp.Expr, formulas: Mapping[str, Record]) ->
         formula=formula,
         verdict=DIFFERENT,
         kind=DIVERGENT,
-        repair=f"the sum diverges because {growth.says}: read the {to_plain(formula.meaning)}, "
+        repair=f"the sum diverges because {growth.finding}: read the {to_plain(formula.meaning)}, "
         f"{formula.expression}",
         repaired=formula.expression,
         edits=0,
@@ -63,12 +63,12 @@ def diagnose_power(name: str, given: sp.Expr, formulas: Mapping[str, Record]) ->
     diagnosis = diagnose(name, given, formulas)
     if diagnosis.verdict == EQUAL:
         return diagnosis
-    says = (
+    repair = (
         f"read {diagnosis.derived}: the first power is {diagnosis.derived.subs(k, 2)}, not "
         f"{given.subs(k, 2)}, and each is {_step(diagnosis.derived)} above the one before, "
         f"not {_step(given)}"
     )
-    return replace(diagnosis, kind=EXPONENT, repair=says, repaired=diagnosis.derived, edits=1)
+    return replace(diagnosis, kind=EXPONENT, repair=repair, repaired=diagnosis.derived, edits=1)
 
 
 def _step(power: sp.Expr) -> sp.Expr:

@@ -33,8 +33,8 @@ TERMS = 12, 17
 """Numbers of terms for s(y) and for the plate factor's denominator; the rest is below 1e-20."""
 
 FAR, FAR_TERMS = 1000, 4
-"""Zeros beyond this number come in long doubles from McMahon's expansion: so many terms leave out
-less than 1e-26 of the value."""
+"""Index beyond which zeros in long doubles are computed by McMahon's expansion, and its number of
+terms: the omitted ones are less than 1e-26 of the value."""
 
 KNOWN = 1 << 16
 """Number of zeros that are computed in doubles by the generated code."""
@@ -68,15 +68,15 @@ class Arithmetic:
         raise NotImplementedError
 
     def number(self, value: Any) -> Any:
-        """Return a double, a ball or one of its own numbers as its number."""
+        """Convert a double, a ball or a number of this arithmetic to one of this arithmetic."""
         raise NotImplementedError
 
     def array(self, values: Any) -> Array:
-        """Return each number as its number."""
+        """Convert each number to one of this arithmetic."""
         raise NotImplementedError
 
     def for_doubles(self, inner: Callable[[Array], Array]) -> Callable[[Any], Array]:
-        """Return a function of its numbers as one of doubles, in its precision."""
+        """Convert a function of numbers of this arithmetic to one of doubles, in its precision."""
 
         def call(values: Any) -> Array:
             with self.context():
@@ -153,7 +153,7 @@ class Floats(Arithmetic):
         return inner if self is DOUBLE else lambda values: inner(values.astype(self.dtype))
 
     def zeros(self, count: int, begin: int = 0) -> tuple[Array, Array]:
-        """Return those with begin < n <= count: known ones, and others by McMahon's expansion."""
+        """Return zeros with begin < n <= count: known ones, and others by McMahon's expansion."""
         known = min(count, KNOWN if self.digits <= 16 else FAR)
         if self.digits <= 16:
             near = self.array(bessel_j0_zeros(known)), self.array(bessel_j1_at_j0_zeros(known))
@@ -183,7 +183,7 @@ class Floats(Arithmetic):
         return np.where(y < SERIES_END, series, np.sin(y) - y * np.cos(y))
 
     def lateral_shape(self, t: Array) -> Array:
-        """Return the same series without alternating signs."""
+        """Return the series of `shape` without alternating signs."""
         near = np.minimum(t, self.number(SERIES_END))
         series = horner(self._sinh, near * near) * (t * t * t)
         return np.where(t < SERIES_END, series, t * np.cosh(t) - np.sinh(t))
@@ -227,7 +227,7 @@ class BallArithmetic(Wide):
         self.name, self.digits, self.constants = f"Arb, {digits} digits", digits, digits + 10
 
     def context(self) -> AbstractContextManager[Any]:
-        """Return its precision with some additional bits."""
+        """Return a context with some additional bits of precision."""
         manager: AbstractContextManager[Any] = flint.ctx.workprec(
             math.ceil(self.digits * LOG2_10) + 24
         )
@@ -238,11 +238,11 @@ class BallArithmetic(Wide):
         return value if isinstance(value, arb) else arb(float(value))
 
     def shape(self, y: Array) -> Array:
-        """Return the Arb reference's function, which uses its power series."""
+        """Return the function of the Arb reference, which uses a power series."""
         return np.frompyfunc(lambda x: kernel("hertz", acb(x)).real * x**3 / 3, 1, 1)(y)
 
     def lateral_shape(self, t: Array) -> Array:
-        """Return the same on the imaginary axis."""
+        """Return the function of `shape` on the imaginary axis."""
         return np.frompyfunc(lambda x: kernel("hertz", acb(0, x)).real * x**3 / 3, 1, 1)(t)
 
     def excess(self, T: Array) -> Array:
@@ -260,7 +260,7 @@ class Mpmath(Wide):
         self.constants = constants or digits + 10
 
     def context(self) -> AbstractContextManager[Any]:
-        """Return its precision with some additional digits."""
+        """Return a context with some additional digits of precision."""
         manager: AbstractContextManager[Any] = mp.workdps(self.digits + 3)
         return manager
 
@@ -335,11 +335,11 @@ HAS_LONG_DOUBLE = LONG_DOUBLE.digits > DOUBLE.digits
 """Whether a long double of this platform has more digits than a double."""
 
 WIDE = 60
-"""Smallest number of digits of the arithmetic that serves as exact."""
+"""Smallest number of digits of the arithmetic that is used as exact."""
 
 
 def exact_for(ar: Arithmetic) -> Arithmetic:
-    """Return an arithmetic with sufficient digits to show the rounding of another one.
+    """Return an arithmetic with enough digits to show the rounding errors of another one.
 
     Both use the same digits for constants, so that these are computed once.
     """

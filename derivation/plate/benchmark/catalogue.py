@@ -79,7 +79,7 @@ def _wide_laws() -> list[Method]:
 
 
 def _deepest_laws() -> list[Method]:
-    """Return those with DEEPEST digits; methods that would take too long state the reason."""
+    """Return the methods with DEEPEST digits; those that would take too long state the reason."""
 
     def elsewhere(case: BenchmarkCase) -> str | None:
         if case == PAPER:

@@ -31,7 +31,7 @@ MOST_ZEROS = 20_000
 """Number of zeros of J0 above which their computation takes minutes."""
 
 LAW_DIGITS, MOST_TERMS = 40, 200
-"""Number of digits of the law that serves as exact, and number of its terms for a thin plate."""
+"""Number of digits of the law that is used as exact, and number of its terms for a thin plate."""
 
 
 def is_thin(h: float, b: float, digits: int) -> bool:
@@ -47,7 +47,7 @@ def coefficients(case: BenchmarkCase, count: int, digits: int) -> list[arb]:
         case.high if case.high < RADIUS else 0.0,
         1.05 * largest_contact_radius(case) / case.h,
     )
-    return oracles(case.h, case.b, min(max(reach, LEAST), 0.95 / case.eta), digits)[:count]
+    return arb_coefficients(case.h, case.b, min(max(reach, LEAST), 0.95 / case.eta), digits)[:count]
 
 
 def exact_law(case: BenchmarkCase) -> list[arb]:
@@ -66,12 +66,12 @@ def exact_law(case: BenchmarkCase) -> list[arb]:
         count = math.ceil(LAW_DIGITS / (2 * math.log10(RADIUS / top))) + 2 if top < RADIUS else 0
         if 0 < count < MOST_TERMS:
             return closed_form(case.h, case.b, count, LAW_DIGITS)
-    return oracles(case.h, case.b, top, LAW_DIGITS)
+    return arb_coefficients(case.h, case.b, top, LAW_DIGITS)
 
 
 @cache
-def oracles(h: float, b: float, top: float, digits: int) -> list[arb]:
-    """Return those of the Arb reference up to a/h = top; for a > 4 h its terms cancel."""
+def arb_coefficients(h: float, b: float, top: float, digits: int) -> list[arb]:
+    """Return coefficients of the Arb reference up to a/h = top; for a > 4 h its terms cancel."""
     eta, bits = ratio_of(h, b), math.ceil((digits + 5) * LOG2_10)
     if contact_points.mode_count(float(eta), bits) > MOST_ZEROS:
         raise NotImplementedError("the law of so large contacts on so thin a plate takes minutes")
@@ -87,7 +87,7 @@ def oracles(h: float, b: float, top: float, digits: int) -> list[arb]:
 
 @cache
 def closed_form(h: float, b: float, count: int, digits: int) -> list[arb]:
-    """Return those of the thin plate: a logarithm and finite parts M_k."""
+    """Return the coefficients of the thin plate: a logarithm and finite parts M_k."""
     bits = math.ceil(digits * LOG2_10) + 64
     with flint.ctx.workprec(bits):
         eta, pi = arb(h) / arb(b), arb.pi()

@@ -56,7 +56,7 @@ def quad_whole(end: float, limit: int) -> float:
 
 
 def quad_in_parts() -> float:
-    """Return the error of that integral in two parts, beyond 1/a with QAWF's weights."""
+    """Return the error of the integral of `quad_whole` in two parts, beyond 1/a by QAWF."""
     from scipy.integrate import quad
 
     near = quad(lambda k: _shape(A * k) / k**3, 0, 1 / A, epsabs=0, epsrel=1e-13)[0]

@@ -55,7 +55,7 @@ class SeriesLaw:
     def quotient(self, A: Array, q: Array) -> Array:
         """Return (1 - W(q A)/W(A))/(1 - q) of the stored energy W.
 
-        With W = q^5 + sum e q^(2k+6) its terms are sums of the e that follow.
+        With W = q^5 + sum e_k q^(2k+6) the coefficients of the quotient are sums of the later e_k.
         """
         square, power, e = A * A, A, []
         for coefficient in self.e:

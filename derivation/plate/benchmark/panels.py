@@ -48,7 +48,7 @@ def panel(
 
 
 def measured_row(method: Method, problem: Problem) -> tuple[BenchmarkRow, MeasuredMethod | None]:
-    """Return the row of a method without times, and what to time unless the method fails."""
+    """Return the row of a method without times, and the function to time unless it fails."""
     reason = method.fails(problem.case)
     row = BenchmarkRow(
         method.task, problem.case.name, method.family, method.setting, method.arithmetic, reason

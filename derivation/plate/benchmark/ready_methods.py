@@ -115,7 +115,7 @@ def generated_impact(ar: Floats = DOUBLE) -> Method:
     return Method("impact", "generated code", "set-up included", prepare, ar, "all")
 
 
-# --- the oracles
+# --- the references
 
 
 def arb_reference(task: Task, digits: int, quick: bool = True) -> Method:

@@ -46,7 +46,8 @@ class Scaling:
     slope
         Exponent of the power law through the last three sizes.
     deviates_at
-        Largest size at which the time differs from the power law by more than `OFF`, or None.
+        Largest size at which the time differs from the power law by more than a
+        factor of `FIT_DEVIATION`, or None.
     reason
         The reason for that difference, or for the exponent.
     peak_bytes

@@ -44,7 +44,7 @@ class Tool:
         The problem solved, and the settings of the program.
     error, seconds
         Relative error of the result, and its run time [s].
-    cannot
+    limitation
         What the program cannot compute of the impact of a sphere on a plate.
     missing
         Reason why there is no result, or None.

@@ -158,7 +158,7 @@ def _moments() -> Iterator[HardCase]:
         for index in (low, low + 1, low + 2, low + 9, low + 40, high - 1, high):
             cause = "An integral that grows like a factorial, to half a unit in the last place."
             yield HardCase(group, kernel, cause, exact_inputs(**{argument: index}))
-        cause = "The first index whose value no double holds."
+        cause = "The first index whose value exceeds the range of doubles."
         yield HardCase(group, kernel, cause, exact_inputs(**{argument: high + 1}), expect="nan")
         for index in (low, low + 1, 1e3, 1e6):
             cause = "The value over its leading term, far beyond where the value itself overflows."
@@ -167,9 +167,7 @@ def _moments() -> Iterator[HardCase]:
         ("n", "kappa_ratio", kappa_start()), ("k", "finite_part_ratio", finite_part_start()),
     ):  # fmt: skip
         for offset in OFFSETS:
-            cause = (
-                f"{offset:+d} from index {start}, where the expansion takes over from the table."
-            )
+            cause = f"{offset:+d} from index {start}, where the expansion replaces the table."
             yield HardCase(group, kernel, cause, exact_inputs(**{argument: float(start + offset)}))
 
 

@@ -27,7 +27,7 @@ def suite() -> Suite:
         ORACLE,
         LAWS,
         (zeros.__name__, moments.__name__),
-        # Plates grow and contacts shrink, so that none comes to lie beyond the edge.
+        # Plates are enlarged and contacts reduced, so that no contact exceeds the edge.
         outwards=("b", "h", "R", "lam", "mu"),
     )
 

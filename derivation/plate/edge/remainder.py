@@ -1,16 +1,16 @@
 """Model error of the edge corrections, measured against three-dimensional elasticity.
 
-Modes and polynomial states together satisfy all conditions except those on the edge r = b,
-which hold in the mean only. The remainder is an elastic field without load on the faces, driven by
-the edge alone and smooth inside. Spectral elements compute it; Hertz pressure does not enter.
+Modes and polynomial states together satisfy all conditions except those on the edge r = b, which
+they satisfy in the mean only. The remainder is an elastic field without load on the faces, caused
+by the edge alone and smooth inside. Spectral elements compute it; Hertz pressure does not enter.
 The edge conditions of the remainder are
 
     supported   w = 0,  sigma_rr = 0:   traction -sigma_rr and displacement -w of what is there,
     clamped     u = w = 0:              displacements -u and -w of what is there,
 
-both on the whole edge, not only in the middle plane or in the mean. The model error is the
-centre deflection of the contact face by both, minus the law's value, divided by delta. That of the
-stress on the axis of the back face is their stress, minus the law's value, divided by this value.
+both on the whole edge, not only in the middle plane or in the mean. The model error is the centre
+deflection of the contact face by both, minus the law's value, divided by delta. That of the stress
+on the axis of the back face is their stress, minus the law's value, divided by this value.
 
 The Gauss-Lobatto-Legendre elements all have one degree. The mesh is graded geometrically towards
 the edge and its two corners, where a clamp is singular. Another degree and another layer of
@@ -112,7 +112,7 @@ def radii(h: float, layers: int) -> Double:
     return np.unique(np.concatenate(([0.0], 1.0 - np.array(steps[:-1]), [1.0])))
 
 
-def rim_displacement(case: RemainderCase, a: float, z: Double, modes: int = MODES) -> Double:
+def edge_displacement(case: RemainderCase, a: float, z: Double, modes: int = MODES) -> Double:
     """Return u(b, z) of a limited number of modes."""
     j = bessel_j0_zeros(modes)
     slope = bessel_j1_at_j0_zeros(modes)
@@ -145,9 +145,9 @@ class Elements:
         self.columns = (len(x_ends) - 1) * degree + 1
         self.rows = (len(z_ends) - 1) * degree + 1
         self.size = 2 * self.columns * self.rows
-        self.z, self.rim_weights = self._rim()
+        self.z, self.edge_weights = self._edge_nodes()
 
-    def _rim(self) -> tuple[Double, Double]:
+    def _edge_nodes(self) -> tuple[Double, Double]:
         """Return the heights of the nodes on the edge and their quadrature weights."""
         nodes, weights, _ = lobatto(self.degree)
         z, w = np.zeros(self.rows), np.zeros(self.rows)
@@ -239,10 +239,10 @@ class Field(Elements):
         super().__init__(radii(case.h, mesh.layers), heights(case.h, mesh.layers), mesh.degree)
 
     def added(self, widths: Sequence[float], *, states: bool = True) -> list[tuple[float, float]]:
-        """Return what a support adds, by a/b: -w at the contact face's centre, and the stress.
+        """Return the changes by a support, by a/b: of -w at the centre, and of the stress.
 
-        The stress is sigma_rr on the axis of the back face. The polynomial states carry most of
-        both; without them the elements must compute all.
+        The former is on the contact face; the stress is sigma_rr on the axis of the back face. The
+        polynomial states contribute most of both; without them the elements compute all.
         """
         known = [self._of_states(a) if states else (0.0, 0.0) for a in widths]
         fields = self._solved(widths, states)
@@ -258,7 +258,7 @@ class Field(Elements):
         ]
 
     def face(self, a: float) -> tuple[Double, Double]:
-        """Return r, and what a support adds to the indentation -w of the contact face there."""
+        """Return r, and the change by a support of the indentation -w of the contact face there."""
         nodes, columns = lobatto(self.degree)[0], np.arange(self.columns)
         ends = zip(self.x_ends[:-1], self.x_ends[1:], strict=True)
         inside = [(low + high) / 2 + (high - low) / 2 * nodes[:-1] for low, high in ends]
@@ -271,8 +271,8 @@ class Field(Elements):
         case, ring = self.case, np.arange(self.rows)
         matrix = self.stiffness(case.lam, round_plate=True)
         axis = self.number(np.zeros_like(ring), ring, 0)
-        rim = [self.number(np.full_like(ring, self.columns - 1), ring, part) for part in (0, 1)]
-        held = rim if case.support == "clamped" else rim[1:]
+        at_edge = [self.number(np.full_like(ring, self.columns - 1), ring, part) for part in (0, 1)]
+        held = at_edge if case.support == "clamped" else at_edge[1:]
         fixed = np.concatenate((axis, *held))
         free = np.setdiff1d(np.arange(self.size), fixed)
         rows = matrix[free]
@@ -280,26 +280,26 @@ class Field(Elements):
         fields = []
         for a in widths:
             values, load = np.zeros(self.size), np.zeros(self.size)
-            pushed, values[rim[0]], values[rim[1]] = self._given(a, states)
-            load[rim[0]] = pushed * self.rim_weights
+            pushed, values[at_edge[0]], values[at_edge[1]] = self._edge_values(a, states)
+            load[at_edge[0]] = pushed * self.edge_weights
             values[free] += solver.solve(load[free] - rows @ values)
             fields.append(values)
         return fields
 
     def _of_states(self, a: float) -> tuple[float, float]:
-        """Return what the states add: -w at the contact face's centre, and the back face's e_rr."""
+        """Return the states' part of `added`: of -w, and of e_rr on the back face."""
         case = self.case
-        e, k = moments(rim_displacement(case, a, self.z), self.z, self.rim_weights, case.h)
+        e, k = moments(edge_displacement(case, a, self.z), self.z, self.edge_weights, case.h)
         thinning = case.lam / (case.lam + 2.0)
         w = k / 2 - thinning * (2.0 * e * case.h + k * case.h**2)
         part = 1.0 if case.support == "clamped" else -(1.0 - case.nu) / (1.0 + case.nu)
         return part * w, -part * (e - k * case.h)
 
-    def _given(self, a: float, states: bool) -> tuple[Double, Double, Double]:
-        """Return traction, u and w on the edge; components that the support leaves free are 0."""
+    def _edge_values(self, a: float, states: bool) -> tuple[Double, Double, Double]:
+        """Return the given traction, u and w on the edge; components that are not given are 0."""
         case, z = self.case, self.z
-        u = rim_displacement(case, a, z)
-        e, k = moments(u, z, self.rim_weights, case.h) if states else (0.0, 0.0)
+        u = edge_displacement(case, a, z)
+        e, k = moments(u, z, self.edge_weights, case.h) if states else (0.0, 0.0)
         thinning = case.lam / (case.lam + 2.0)
         flat, deep = e + k * z, -thinning * (2.0 * e * z + k * z**2)
         if case.support == "clamped":
@@ -310,7 +310,7 @@ class Field(Elements):
 
 
 def edge_contribution(case: RemainderCase, a: float) -> tuple[float, float]:
-    """Return the law's addition to the indentation with the paper's edge, and their sum."""
+    """Return the law's change by the edge, and its indentation with this change."""
     edge = {"supported": supported_edge, "clamped": clamped_edge}[case.support]
     more = float(edge(a, case.h, 1.0, case.lam, 1.0)) * a**2 / RADIUS
     return more, more + float(indentation(a, RADIUS, case.h, 1.0))

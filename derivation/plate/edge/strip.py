@@ -13,8 +13,8 @@ v = (0, n z^2/2) at x = 0. Far away v is a rigid motion u = theta z, w = n level
     level    deflection of the middle plane at the edge; 1/6 if the mean of w were 0
 
 A shear force bulges the end of a simply supported strip by u ~ (2 + n)/3 (z^3 - 3 z/5). A clamp
-suppresses this bulge, which leaves the deflection recorded as `shear`, times 4: its contribution to
-the plate's indentation in units of P b^2/(16 pi D) eta^3.
+suppresses this bulge, and a deflection remains. Four times this deflection is recorded as `shear`:
+its contribution to the plate's indentation in units of P b^2/(16 pi D) eta^3.
 
 Elements, mesh and grading are those of `remainder`. `python -m derivation.plate.edge.strip` repeats
 the computation in minutes.

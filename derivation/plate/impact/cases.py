@@ -43,13 +43,13 @@ def _speed(a: float, h: float, b: float) -> float:
 def _sensitivities() -> Iterator[HardCase]:
     reach, b = float(contact_tables.REACH), 10.0
     given = exact_inputs(**_SPHERE, v0=around(_speed(reach, 1.0, b)), h=1.0, b=b, **_STEEL)
-    why = f"the speed that reaches a = {reach:g} h, where the second polynomial comes in"
+    why = f"the speed that reaches a = {reach:g} h, where the second polynomial begins"
     yield case_around(IMPACTS, "impact_sensitivities", why, given)
     ends = {end for cell in (*contact_tables.CELLS, *contact_tables.FAR_CELLS) for end in cell[:2]}
     for end in sorted(float(end) for end in ends):
         a = 2.5 if end == reach else min(4.5, (reach + end) / 2)
         given = exact_inputs(**_SPHERE, v0=_speed(a, 1.0, end), h=1.0, b=around(end), **_STEEL)
-        why = f"b = {end:g} h, where other tables take over; the largest a is {a:g} h"
+        why = f"b = {end:g} h, beyond which other tables are used; the largest a is {a:g} h"
         yield case_around(IMPACTS, "impact_sensitivities", why, given)
         if end == contact_tables.FAR_REACH:  # its tables are those of the indentation
             yield case_around(IMPACTS, "impact", why, given)
@@ -63,7 +63,7 @@ def _history() -> Iterator[HardCase]:
     end = contact_impact.impact(R, m, v0, h, b, LAM, MU, _FEW).contact_time
     same: dict[str, float] = {**_SPHERE, "v0": v0, "h": h, "b": b, **_STEEL}
     for point, what in (
-        (float(crossing), f"the time when a = {reach:g} h, where the second polynomial comes in"),
+        (float(crossing), f"the time when a = {reach:g} h, where the second polynomial begins"),
         (float(end) / 2, "the turning point, where the rate changes its sign"),
     ):
         yield case_around(IMPACTS, "history", what, exact_inputs(t=around(point), **same))

@@ -134,19 +134,20 @@ def _one_plate() -> Iterator[HardCase]:
                 size = {"R": x, "h": 1.0, "b": 2.0} if moved == "R" else {"R": 1.0, "h": x, "b": x}
                 a = 1e-3 * min(size.values())
                 given = exact_inputs(a=a, **size)
-                cause = f"{offset:+d} ULP from a {what} of {point:g}, beyond which factors are kept"
-                yield HardCase(PLATES, "indentation", f"{cause} in range.", given)
+                cause = f"{offset:+d} ULP from a {what} of {point:g}, beyond which"
+                yield HardCase(PLATES, "indentation", f"{cause} factors are scaled.", given)
     for point in _USUAL:
         for offset in OFFSETS:
             h = neighbour(point, offset)
             given = exact_inputs(a=1e-3 * min(h, 1.0), R=50.0, h=h, b=1.0)
-            cause = f"{offset:+d} ULP from h/b = {point:g}, beyond which factors are kept in range"
+            cause = f"{offset:+d} ULP from h/b = {point:g}, beyond which factors are scaled"
             yield HardCase(PLATES, "indentation", f"{cause}.", given)
     count = 30
     for offset in OFFSETS:
         b = neighbour(count / _DIRECT, offset)
         cause = (
-            f"{offset:+d} ULP from b = {count / _DIRECT:.4g} h, where the direct sum takes a mode"
+            f"{offset:+d} ULP from b = {count / _DIRECT:.4g} h, where the direct sum gets one more "
+            "mode"
         )
         given = exact_inputs(a=6.5, R=50.0, h=1.0, b=b)
         yield HardCase(PLATES, "indentation", f"{cause} more.", given)

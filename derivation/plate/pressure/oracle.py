@@ -97,8 +97,8 @@ def solve(case: Case, digits: int = 25) -> PressureState:
         state = [_wider(x, y, digits) for x, y in zip(coarse[:5], fine[:5], strict=True)]
         pressures = zip(coarse.pressures, fine.pressures, strict=True)
         force, depth, stiffness, slope, centre = state
-        beside = tuple(_wider(x, y, digits) for x, y in pressures)
-        return PressureState(force, depth, stiffness, slope, centre, beside)
+        values = tuple(_wider(x, y, digits) for x, y in pressures)
+        return PressureState(force, depth, stiffness, slope, centre, values)
 
 
 def _wider(coarse: arb, fine: arb, digits: int) -> arb:

@@ -1,7 +1,7 @@
 """Equations (1) to (8) as the paper prints them, in LaTeX, from which the expressions are read.
 
-Right or wrong, nothing here is corrected. A quantity that the paper names inside
-another formula stays a name (`K_j`, `g_j`, ...), and `compared` writes it out.
+The formulas are not corrected. A quantity that the paper names inside another formula stays a name
+(`K_j`, `g_j`, ...), and `compared` inserts its formula.
 """
 
 from dataclasses import replace

@@ -1,6 +1,6 @@
 """Equations (9) to (18) as the paper prints them, in LaTeX, from which the expressions are read.
 
-A series is typed with the terms that are compared; `full` is the print itself.
+A series is typed with the terms that are compared; `full` is the formula as published.
 """
 
 from dataclasses import dataclass

@@ -154,7 +154,7 @@ def scaling_row(growth: Data) -> str:
 
 
 def tool_rows(tools: Sequence[Data]) -> Iterator[str]:
-    """Yield the rows of other programs; what a program cannot compute is stated once."""
+    """Yield the rows of other programs; the limitation of each program is stated once."""
     said = ""
     for tool in tools:
         name = escape(f"{tool['name']} {tool['version']}".strip())

@@ -1,4 +1,4 @@
-"""Consequence of a misprint in the paper's case: printed and derived formula as numbers.
+"""Effect of a misprint in the paper's case: values of the published and the derived formula.
 
 Both are evaluated at the largest contact of the corrected law: formulas of a mode for the first
 mode, sums over the first MODES modes.

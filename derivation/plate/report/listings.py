@@ -15,7 +15,7 @@ SHOWN = {
     "sonine": "pressure",
     "Omega_3": "omega",
 }
-"""Short functions of one formula each, and the module of `generated` that holds them."""
+"""Short functions of one formula each, and the module of `generated` that contains them."""
 LAW = {"_forces": "plate_arrays", "_contact": "plate_arrays"}
 """Functions without a formula: the inverse law, which solves for the contact radius."""
 

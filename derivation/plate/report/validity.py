@@ -17,7 +17,7 @@ FORMULAS = (
     FACTOR, "P", "delta_half", "delta_lateral", "delta_thickness", "delta_reduced", "c_1_thin",
     "delta_slope", "contact_work", "contact_integrand",
 )  # fmt: skip
-"""The plate factor, the law, its small contacts, its slope, and what an impact makes of it."""
+"""The plate factor, the law, its series for small contacts, its slope, and the impact."""
 
 
 def law_context(formulas: Mapping[str, Record]) -> dict[str, Any]:

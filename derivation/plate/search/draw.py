@@ -39,7 +39,8 @@ LENGTH, STRESS, MASS, FORCE = 9.0, 12.0, 9.0, 12.0
 
 MOST_MODES = 60
 LAST = {"kappa": 200.0, "finite_part": 105.0, "bessel": 1e5}
-"""Largest indices: above the first two the value is no double; above the last tables are long."""
+"""Largest indices: above the first two the value exceeds the range of doubles; above the last
+tables are long."""
 
 _SEARCHED = (
     "1e-150 <= phi * h <= 1e6",

@@ -37,10 +37,10 @@ undeformed one, outwards. It lifts the face by the mean of p r/R over the distan
 and the edge of the contact. Points of the face also move by u_r along it, towards the axis, where
 the gap is smaller. With g = (1 - r^2/a^2)^(3/2) and F = (2/(3 pi)) (1 - 2 nu)/(1 - nu) a/R, both
 change the gap by F a^2/R times g and 1 - g: the sum is uniform. Hertz's pressure remains, and the
-indentation decreases by its fraction F at equal force. This holds for a rigid sphere on a
+indentation decreases by its fraction F at equal force. This is valid for a rigid sphere on a
 half-space and for a sphere on a rigid plane. Of two elastic bodies, each turns its face by its part
-of the compliance times r/R, and its F counts with the square of this part. Nonlinear terms of the
-equations of equilibrium and of Hooke's law are not included; they are of the same order.
+of the compliance times r/R, and its F is multiplied by the square of this part. Nonlinear terms of
+the equations of equilibrium and of Hooke's law are not included; they are of the same order.
 """
 
 from functools import cache

@@ -17,7 +17,7 @@ bending stress is this unit times log(b/a) + 5/6 - log(2) + g (the mean of log(b
 Timoshenko and Woinowsky-Krieger, section 19), above 1 for a < 0.4 b: then B w_0/H is an upper bound
 on the tension over the bending stress.
 
-A clamped edge holds the middle plane (u = 0), a simply supported edge does not (N_r = 0), and the
+A clamped edge fixes the middle plane (u = 0), a simply supported edge does not (N_r = 0), and the
 paper's edge has u' + u/r = 0. For nu = 0.3, A is 0.445 and 0.272; Timoshenko and Woinowsky-Krieger,
 Theory of Plates and Shells, 2nd ed. 1959, table 82, have 0.443 and 0.272.
 """

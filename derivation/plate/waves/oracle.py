@@ -121,8 +121,8 @@ def fraction(x: Exact, nu: Exact, digits: int = 30) -> arb:
         kap = _zero(KINDS[0], x, nu, 0, _finer(x, digits))
         T = 2 * to_ball(x)
         G = (T.sinh() * T.cosh() + T) / (T.sinh() ** 2 - T**2)
-        at_rest = G / (2 * (1 - _gam(nu)) * to_ball(x))
-        return -1 / _slope(KINDS[0], x, kap, nu) / kap / at_rest
+        static = G / (2 * (1 - _gam(nu)) * to_ball(x))
+        return -1 / _slope(KINDS[0], x, kap, nu) / kap / static
 
     return _refined(x, digits, compute)
 

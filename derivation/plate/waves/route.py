@@ -81,7 +81,7 @@ def fraction(x: float, nu: float, digits: int = 30) -> mpf:
 
 
 def _working(x: float, kap: float, digits: int) -> int:
-    """Return working digits: exponents differ by kap/x only, and tractions cancel likewise."""
+    """Return working digits: exponents differ by kap/x only, so that tractions cancel, too."""
     size = abs(mp.log10(mpf(x))) + abs(mp.log10(mpf(kap)))
     return int(2 * digits + 20 + 3 * size)
 

@@ -185,7 +185,7 @@ def test_bound_on_the_lateral_surface_is_checked_where_it_begins(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(contact_lateral, "NEAR", 1.4)  # sinh(1.4) < 2
-    with pytest.raises(PrecisionError, match=r"does not hold from t = 1\.4 on"):
+    with pytest.raises(PrecisionError, match=r"is not valid from t = 1\.4 on"):
         contact_lateral.shifted_bound.__wrapped__()
 
 

@@ -23,11 +23,11 @@ from derivation.plate.edge.remainder import (
     RemainderMesh,
     back_face_stresses,
     edge_contribution,
+    edge_displacement,
     heights,
     lobatto,
     radii,
     remainders,
-    rim_displacement,
 )
 from derivation.scene import SceneError, indent, read, simulate
 from derivation.scene.contact_law.edge_remainder import (
@@ -62,8 +62,8 @@ def test_meshes_cover_the_plate(h: float) -> None:
 def test_number_of_modes_at_the_edge_is_sufficient() -> None:
     """With a quarter of the modes the edge displacement changes by less than 1e-6."""
     case, z = RemainderCase("supported", 0.2, 0.3), np.array([-0.2, 0.0, 0.1, 0.2])
-    values = rim_displacement(case, 0.1, z)
-    fewer = rim_displacement(case, 0.1, z, modes=1500)
+    values = edge_displacement(case, 0.1, z)
+    fewer = edge_displacement(case, 0.1, z, modes=1500)
     assert np.abs(values - fewer).max() < 1e-6 * np.abs(values).max()
 
 

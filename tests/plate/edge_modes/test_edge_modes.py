@@ -62,7 +62,7 @@ def test_shear_coefficient() -> None:
         (theory, "SUPPORTED", 1 / (1 + poisson), theory.edges),
         (theory, "CLAMPED", 2 * theory.CLAMPED, theory.edges),
         (theory, "NORM", theory.NORM + theory.J1**2 / 7, theory.norm),
-        (theory, "SUPPORTED_REST", -theory.SUPPORTED_REST, theory.at_rest),
+        (theory, "SUPPORTED_REST", -theory.SUPPORTED_REST, theory.static_changes),
         (mindlin, "u_2", lambda: 1 + mindlin.ROTARY * mindlin.xi, mindlin.waves),
     ],
 )

@@ -20,8 +20,8 @@ def static_law(ratio: float, half: float) -> float:
 
 def static_modes(ratio: float, half: float) -> float:
     """Return the same of all modes of the clamped plate."""
-    difference = next(f for f in waves.at_rest() if f.name == "clamped_static_change").expression
-    return float((-16 * sp.pi * difference).subs({nu: ratio, eta: half}))
+    change = next(f for f in waves.static_changes() if f.name == "clamped_static_change")
+    return float((-16 * sp.pi * change.expression).subs({nu: ratio, eta: half}))
 
 
 def own_chi(ratio: float) -> float:

@@ -184,7 +184,7 @@ def test_series_rejects_contacts_outside_its_range() -> None:
     plate = ratio_of(0.1, 1.0)
     with pytest.raises(PrecisionError, match="up to"):
         contact_points.series(plate, 0.3, 40).excess("hertz", arb(0.31))
-    with pytest.raises(PrecisionError, match="serves up to"):
+    with pytest.raises(PrecisionError, match="is valid up to"):
         contact_points.series(ratio_of(1e-3, 1.0), 0.1, 40)
     with pytest.raises(ValueError, match="a/b < 1"):
         contact_points.series(plate, 1.0, 40)

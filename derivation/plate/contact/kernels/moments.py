@@ -57,7 +57,8 @@ _TAIL = -120
 _END = 320
 _MIDPOINT_BITS = 100
 _TABLE_BITS = 90
-"""Smallest number of correct bits of the quadrature; a rounding must not depend on further bits."""
+"""Smallest number of correct bits of the quadrature, so that no rounding depends on further
+bits."""
 
 
 def _nodes() -> list[tuple[Ball, Ball]]:
@@ -88,7 +89,7 @@ def midpoint(value: Ball) -> Ball:
         If the radius is larger.
     """
     if not value.rad() < Ball(2) ** -_MIDPOINT_BITS * (1 + abs(value)):
-        raise ArithmeticError(f"{value} is not sharp enough for a table")
+        raise ArithmeticError(f"the radius of {value} is too large for a table")
     return value.mid()
 
 

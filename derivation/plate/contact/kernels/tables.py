@@ -48,7 +48,7 @@ TERMS, SHORT_TERMS, FAR_TERMS = 19, 7, 24
 SHORT = 6
 """The short polynomial is used for x = A/reach up to 1/SHORT."""
 MODES = 11
-"""Number of modes that matter for eta >= 1/REACH: w_n decays like e^(-4 eta j_n)."""
+"""Number of modes that are needed for eta >= 1/REACH: w_n decays like e^(-4 eta j_n)."""
 CELLS = ((3, 4, 20), (4, 6, 22), (6, 11, 23))
 """Ranges of 1/eta, each with the number of powers that represent the thin plate's remainder.
 
@@ -233,9 +233,7 @@ def tables() -> dict[str, Rows]:
     cell_0, ...
         The thin plate's remainder over A: for each power of tau (1/eta, scaled to [-1, 1])
         a row in powers of (A/3)^2.
-    far_0, ...
-        F/A itself for A > 3: likewise, in powers of t in [-1, 1], A^2 scaled.
-    short
+    far_0, ... F/A itself for A > 3: likewise, in powers of t in [-1, 1], A^2 scaled. short
         Row j: the contributions of x^(2k), k = SHORT_TERMS, ..., to the coefficient of x^(2j) of
         the short polynomial, 0 <= x <= 1/SHORT.
     """

@@ -72,7 +72,7 @@ def shifted_bound() -> arb:
             total += width * abs(y.real).exp() * slope.abs_upper() / least**2
         s, c = arb(NEAR).sinh(), 2 * arb(SHIFT).cos()
         if not (s >= 2 and c * s >= 1):
-            raise PrecisionError(f"the far bound of I0 does not hold from t = {NEAR} on")
+            raise PrecisionError(f"the far bound of I0 is not valid from t = {NEAR} on")
         total += 48 * (-c * s).exp() * ((1 + s) / c + 1 / c**2)
         return (2 * total).abs_upper()
 

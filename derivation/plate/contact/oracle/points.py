@@ -69,7 +69,7 @@ class PointSeries(NamedTuple):
             If alpha = a/b exceeds the reach.
         """
         if not (alpha > 0 and alpha <= self.reach):
-            raise PrecisionError(f"the series is made for a/b up to {self.reach}, got {alpha}")
+            raise PrecisionError(f"the series is valid for a/b up to {self.reach}, got {alpha}")
         with flint.ctx.workprec(max(flint.ctx.prec, self.working)):
             value = self.powers[name](alpha * alpha) + arb(0, self.rest)
         return FACTORS[name] * alpha / arb.pi() * value
@@ -175,10 +175,10 @@ def series(eta: Fraction, reach: float, bits: int) -> PointSeries:
         If the contact radius exceeds 4 h DEEPEST.
     """
     if not 0 < reach < 1:
-        raise ValueError(f"the law has meaning for 0 < a/b < 1, got {reach}")
+        raise ValueError(f"the law is defined for 0 < a/b < 1, got {reach}")
     depth = reach / (4 * float(eta))
     if depth > DEEPEST:
-        raise PrecisionError(f"the series serves up to a/(4h) = {DEEPEST}, got {depth:.4g}")
+        raise PrecisionError(f"the series is valid up to a/(4h) = {DEEPEST}, got {depth:.4g}")
     working = working_bits(eta, reach, bits)
     lateral, modes = lateral_points(working), mode_points(eta, bits, working)
     with flint.ctx.workprec(working):

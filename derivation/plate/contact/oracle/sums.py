@@ -299,7 +299,7 @@ def excess(name: str, alpha: arb, eta: Fraction | None) -> arb:
         Unless 0 < alpha = a/b < 1.
     """
     if not (alpha > 0 and alpha < 1):
-        raise ValueError(f"the law has meaning for 0 < a/b < 1, got {alpha}")
+        raise ValueError(f"the law is defined for 0 < a/b < 1, got {alpha}")
     rate = 2.0 ** math.ceil(math.log2(float(alpha.abs_upper())))
     weight = Weight(lambda z: kernel(name, alpha * z), rate=min(1.0, 2 * rate))
     return FACTORS[name] * alpha / arb.pi() * functional(weight, eta)

@@ -93,7 +93,7 @@ def supported_depth(depth: float) -> float:
     # Near a root just within the reach of a series, the law is evaluated on both sides of the root.
     served: float = SHALLOW * 2 ** max(0, math.ceil(math.log2(depth / SHALLOW) - 1e-6))
     if served > DEEPEST:
-        raise RouteError(f"this route serves contacts up to a = {DEEPEST:g} h, got {depth:.4g} h")
+        raise RouteError(f"this method is valid up to a = {DEEPEST:g} h, got {depth:.4g} h")
     return served
 
 
@@ -114,7 +114,7 @@ def _law(h: float, b: float, x: mpf, digits: int) -> tuple[ResidueLaw, mpf]:
 
 def _ratio(a: float, b: float) -> mpf:
     if not 0 < a < b:
-        raise ValueError(f"the law has meaning for 0 < a/b < 1, got {mp.nstr(mpf(a) / mpf(b))}")
+        raise ValueError(f"the law is defined for 0 < a/b < 1, got {mp.nstr(mpf(a) / mpf(b))}")
     return mpf(a) / mpf(b)
 
 

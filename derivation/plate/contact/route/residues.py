@@ -35,7 +35,7 @@ deep: T = 1 + y avoids the poles T_n of G, whose smallest arg (T_n - 1) is 1.28,
 
 FIRST_ZERO = 2.4
 """Slightly below the first zero of J0. If G - 1 is negligible at T = 2 eta FIRST_ZERO, only the
-finite radius matters: N_j = (-1)^(j+1) 2/pi (2 eta)^(2j+1) kappa_(2j) of step 12."""
+finite radius contributes: N_j = (-1)^(j+1) 2/pi (2 eta)^(2j+1) kappa_(2j) of step 12."""
 
 _SPARE = 64
 """Additional bits for sums of thousands of terms."""

@@ -34,7 +34,7 @@ def cut(x: Double, part: slice) -> Double:
 def pieces(arguments: list[Double], shape: tuple[int, ...], part: slice) -> list[Double]:
     """Return parts of flattened, broadcast arguments; the arguments themselves for a single part.
 
-    Single values stay single, so that no argument is broadcast as a whole.
+    Single values stay scalars, so that no complete argument is broadcast.
     """
     if part.start == 0 and part.stop >= np.prod(shape):
         return arguments

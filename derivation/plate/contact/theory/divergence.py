@@ -33,14 +33,14 @@ class Tail:
         Power of j that the amplitude of the terms follows; -oo if they decay exponentially.
     leading
         The terms for large j, in phi; None if they oscillate.
-    says
+    finding
         Description in words.
     """
 
     kind: str
     exponent: sp.Expr
     leading: sp.Expr | None
-    says: str
+    finding: str
 
 
 @cache
@@ -183,7 +183,7 @@ def truncated_gamma(k: int) -> Formula:
     """
     n = sp.Symbol("n", integer=True, positive=True)
     growth = tail(printed_term(k))
-    assert growth.kind == DIVERGENT, growth.says
+    assert growth.kind == DIVERGENT, growth.finding
     assert growth.leading is not None
     term = sp.powsimp(growth.leading.subs(phi, sp.pi * n / b), force=True)
     power = growth.exponent

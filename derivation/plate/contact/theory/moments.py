@@ -154,7 +154,7 @@ def _product(first: Laurent, *others: Laurent) -> Laurent:
 
 @cache
 def lateral_constant(terms: int = 12) -> Proof:
-    """Prove D -> 1: the factor pi of K0/I0 = pi e^(-2y) D, which Bessel's equation leaves open.
+    """Prove D -> 1: the factor pi of K0/I0 = pi e^(-2y) D, not determined by Bessel's equation.
 
     The truncated expansion, widened by the bound, must contain D.
     """

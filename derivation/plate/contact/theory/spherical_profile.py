@@ -44,7 +44,7 @@ def flat_punch() -> Proof:
     sine = (-1) ** _m / sp.factorial(2 * _m + 1)
     half_space = influence_coefficients()[2].expression
     transform = sp.laplace_transform(sp.besselj(0, r * _x), _x, _s, noconds=True)
-    beside = sp.diff(sp.asin(_c / r), _c) - 1 / sp.sqrt(r**2 - _c**2)
+    outside = sp.diff(sp.asin(_c / r), _c) - 1 / sp.sqrt(r**2 - _c**2)
     return prove(
         "Flat punch",
         "The power series of the transform; the limit of the influence coefficient for a "
@@ -53,7 +53,7 @@ def flat_punch() -> Proof:
             "transform": sp.combsimp(sp.gammasimp(bessel * moment / sine)) - 1,
             "half-space": half_space * phi * PLANE_STRAIN_MODULUS - 2,
             "Laplace": transform - 1 / sp.sqrt(_s**2 + r**2),
-            "outside the punch": beside.subs(r, sp.sqrt(_c**2 + _x**2)),
+            "outside the punch": outside.subs(r, sp.sqrt(_c**2 + _x**2)),
             "at its edge": sp.asin(1) - sp.pi / 2,
         },
     )

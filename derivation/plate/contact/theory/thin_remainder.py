@@ -10,11 +10,11 @@ plate's closed form: G is odd, so on the imaginary axis f(iy) + f(-iy) = -2 q(iy
 term with the opposite sign. The pole of G at 0 is treated by a factor z^w, w -> 0; the poles in 1/w
 of both axes cancel (`axes`).
 
-This holds for every h/b, thick plates included, and for a < 2b, where |q| <= e^(alpha |Im z|) (the
-law itself is defined for a < b). Closing the contour: on the lines Im T = pi n - pi/4,
-|sinh T -+ T| > cosh(Re T)/4, and 2 G = (cosh T - 1)/(sinh T + T) + (cosh T + 1)/(sinh T - T), so
-|G| < 8. Since |H/J0| <= 3 e^(-2 Im z), the contribution of these lines vanishes as n increases, and
-so does that of a vertical line far to the right, where G - 1 decays like T^2 e^(-2T). A term of a
+This is exact for every h/b, thick plates included, and for a < 2b, where |q| <= e^(alpha |Im z|)
+(the law itself is defined for a < b). Closing the contour: on the lines Im T = pi n - pi/4, |sinh T
+-+ T| > cosh(Re T)/4, and 2 G = (cosh T - 1)/(sinh T + T) + (cosh T + 1)/(sinh T - T), so |G| < 8.
+Since |H/J0| <= 3 e^(-2 Im z), the contribution of these lines vanishes as n increases, and so does
+that of a vertical line far to the right, where G - 1 decays like T^2 e^(-2T). A term of a
 coefficient is of the order exp(-Im T_n/eta), one of the law exp(-Im T_n (2 - alpha)/(2 eta)).
 """
 
@@ -224,7 +224,7 @@ def law_remainder() -> Formula:
     proof = prove(
         "Contribution of the roots to the law",
         r"The contour integral is taken over $q(z) (G - 1)$ with $q(z) = s(\alpha z)/(\alpha "
-        r"z)^3$. Of $q$, only the terms 1 and $z^2$ meet the pole of $G$ at 0; they give $c_1$ "
+        r"z)^3$. Of $q$, only the terms 1 and $z^2$ times $G$ have a pole at 0; they give $c_1$ "
         r"and $c_3$. The real axis gives $\Phi$, the imaginary one cancels the finite radius, "
         r"and the poles inside give the sum.",
         {

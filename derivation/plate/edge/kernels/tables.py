@@ -111,7 +111,7 @@ def _tables(kernel: Kernel, first: Ball, weights: list[Ball]) -> tuple[tuple[flo
 
 
 def _that_count(coefficients: list[Ball]) -> list[Ball]:
-    """Return the midpoints of the coefficients, up to the last that matters in a sum near 1/8."""
+    """Return the coefficients' midpoints, up to the last one that is not negligible beside 1/8."""
     points = [c.mid() for c in coefficients]
     last = max(i for i, c in enumerate(points) if abs(c) > 1e-22)
     return points[: last + 1]

@@ -112,7 +112,7 @@ def sums(
     kernel = KERNELS[kind]
     count = math.ceil((0.7 * bits + 12) / (2 * math.pi * float(eta))) + 1
     spare = 3 * max(0, -math.frexp(float(width))[1]) + 4 * max(0, -math.frexp(float(eta))[1])
-    # In steps, so that few tables of modes serve all calls.
+    # In steps, so that few tables of modes are sufficient for all calls.
     working = bits + 64 * (2 + spare // 64)
     with flint.ctx.workprec(working):
         alpha, x, n = to_ball(width), to_ball(eta), to_ball(thinning)

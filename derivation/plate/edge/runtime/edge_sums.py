@@ -91,9 +91,9 @@ def edge_sums(alpha: Double, eta: Double, n: Double, kernel: SummedKernel) -> tu
 def blocks_of_modes(eta: Double, faded: float) -> Iterator[tuple[np.ndarray, int]]:
     """Yield blocks of points, as indices, and the number of their modes.
 
-    Later modes fade because T = 2 eta j > faded. The number of modes, and thereby the rounding
-    error of their sum, does not depend on the other points. It is rounded up, so that there are
-    few blocks.
+    Later modes are negligible because T = 2 eta j > faded. The number of modes, and thereby the
+    rounding error of their sum, does not depend on the other points. It is rounded up, so that
+    there are few blocks.
     """
     counts = 2 + (faded / (2.0 * np.pi * eta)).astype(np.intp)
     counts += -counts % _MODES

@@ -16,8 +16,8 @@ The state of bending with that w, u = k r z and
 
 deflects the contact face by (k b^2/2)(1 - r^2/b^2 - s), s = 2 n (1 - 2 G) eta^2. In Betti's theorem
 with this state as the virtual field, the work of a load on it gives the rotation due to the load:
-this deflection counts twice, averaged over the load and at the centre. The mean rotation of the
-edge alone, int u z dz, would omit the work of the shear stress at the edge. Hence
+this deflection occurs twice in X_c, averaged over the load and at the centre. The mean rotation of
+the edge alone, int u z dz, would omit the work of the shear stress at the edge. Hence
 
     X_c = alpha/(8 pi eta^3) [(1 - s)(1 - 2 alpha^2/5 - s) + 2 chi eta (1 - 2 alpha^2/5)
                               + eta^3/5 + (16/3) n^2 eta^4],

@@ -6,7 +6,7 @@ and the kernel of the integral equation has the additional terms
 
     N_s (t^2 + s^2 - 2 t^2 s^2/b^2)/h^3,   N_s = 2 E* h^3 kappa.
 
-The term in t^2 is the curvature, that in s^2 the smaller effect of a load beside the axis; their
+The term in t^2 is the curvature, that in s^2 the smaller effect of a load away from the axis; their
 coefficients are equal, because the kernel is symmetric (Betti). The last term makes the sum of
 these and a constant the product of the same function of t and s: the state, and the work of the
 load on it, for a thin plate. There kappa is 1/(8 pi D) clamped, and -(1 - nu)/(1 + nu) times as

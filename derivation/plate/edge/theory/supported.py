@@ -147,7 +147,7 @@ def edge_resultants() -> tuple[Formula, ...]:
     }
     proof = prove(
         "Resultants at the edge",
-        "The balance of moments and Hooke's law hold for $g$ and the stresses of one mode, "
+        "The balance of moments and Hooke's law are applied to $g$ and the stresses of one mode, "
         "integrated through the thickness.",
         lambda extension, rotation, edge_force, edge_moment: (
             balances

@@ -47,7 +47,7 @@ def means(count: int) -> tuple[sp.Rational, ...]:
 
 
 def enough(coefficients: tuple[sp.Rational, ...]) -> int:
-    """Return the number of coefficients that matter up to the widest argument."""
+    """Return the number of coefficients that are not negligible up to the widest argument."""
     limit = sp.Rational(TOLERANCE) * coefficients[1]
     return first_true(lambda n: n > 2 and bool(coefficients[n] * WIDEST**n <= limit), 32) + 1
 

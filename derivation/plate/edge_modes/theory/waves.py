@@ -347,7 +347,7 @@ def modal_weight() -> Formula:
 
 
 @cache
-def at_rest() -> tuple[Formula, ...]:
+def static_changes() -> tuple[Formula, ...]:
     """Return the difference to the paper's edge under a static load, on the axis."""
     A = sp.Symbol("A", real=True)
     # In units of P b^2/D: (psi' + psi/r)' = -1/(2 pi r), and psi' + psi = 0 at the edge.
@@ -396,5 +396,5 @@ def thick_plate_modes() -> tuple[Formula, ...]:
     """Return the formulas of the step."""
     return (
         shear_coefficient(), *waves(), *edges(), norm(), face_ratio(), weight(), modal_weight(),
-        *at_rest(),
+        *static_changes(),
     )  # fmt: skip

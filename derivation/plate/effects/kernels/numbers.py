@@ -102,7 +102,7 @@ def _factor_double(name: str) -> float:
 
 
 def arc_coefficients() -> list[sp.Rational]:
-    """Return 1/3, 1/5, ... as far as they matter compared with 1/3 at t = NEAR."""
+    """Return 1/3, 1/5, ... as far as they are not negligible compared with 1/3 at t = NEAR."""
     coefficients: list[sp.Rational] = []
     while True:
         k = len(coefficients)
@@ -112,7 +112,7 @@ def arc_coefficients() -> list[sp.Rational]:
 
 
 def lateral_rows() -> tuple[list[Ball], list[Ball]]:
-    """Return coefficients of -W/alpha, and of -S/alpha, in alpha^2, as far as they matter.
+    """Return the coefficients of -W/alpha and of -S/alpha in alpha^2 that are not negligible.
 
     At alpha = 1 the ratio of neighbours is 1/4 at most, so that all omitted terms are below a third
     of the last one.

@@ -151,7 +151,7 @@ def ratio_of_work() -> Claims:
 
 
 def _in_radius(expression: sp.Expr, at: sp.Expr = A) -> sp.Expr:
-    """Return the expression with D_n = c_(n-2) A^(n-2); the symbols of D_n hold at A = 1."""
+    """Return the expression with D_n = c_(n-2) A^(n-2); the symbols D_n are values at A = 1."""
     return expression.subs({weight(n): weight(n) * at ** (n - 2) for n in NUMBERS[1:]})
 
 
@@ -314,7 +314,7 @@ ROUTINES = (
 
 def impact_kernels() -> Routines:
     """Return the routines of an impact by the contact law, printed from proved expressions."""
-    title = "An impact by the contact law: shapes over its course, and its extremes."
+    title = "An impact by the contact law: normalised time history and largest values."
     made = tuple(make() for make in ROUTINES)
     imports = {"ranges": ("product", "root", "root_factors")}
     return Routines("impact_kernels", title, made, imports)

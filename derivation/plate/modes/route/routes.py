@@ -125,8 +125,8 @@ def _plate_factor_slope(v: Values) -> mpf:
     """Return T dG/dT by a symmetric difference; its step squared is below the last digit."""
     with mp.workdps(2 * mp.dps):
         step = mpf(10) ** (-mp.dps // 4)
-        beside = (_plate_factor({"T": v["T"] * (1 + x)}, 1) for x in (step, -step))
-        return (next(beside) - next(beside)) / (2 * step)
+        values = (_plate_factor({"T": v["T"] * (1 + x)}, 1) for x in (step, -step))
+        return (next(values) - next(values)) / (2 * step)
 
 
 def _face(v: Values, side: int) -> mpf:

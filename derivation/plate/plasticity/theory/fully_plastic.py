@@ -7,10 +7,10 @@ pressure rises by 2 Y ln(c/a), c the radius of the plastic zone, and c^3/a^3 is 
 
     dp/d(ln a) = 2 Y/3.
 
-From the onset this reaches 3 Y at E* a/(Y R) = 46; Johnson gives the fully plastic contact from
-about 30 on. There the indentation is a^2/(2 R) instead of a^2/R: the surface neither sinks in nor
-piles up. A contact of constant pressure p and indentation a^2/(s R) has P = pi a^2 p. Its results
-at a given energy show the effect of p and s.
+From the onset this reaches 3 Y at E* a/(Y R) = 46; according to Johnson the contact is fully
+plastic from about 30 on. There the indentation is a^2/(2 R) instead of a^2/R: the surface neither
+sinks in nor piles up. A contact of constant pressure p and indentation a^2/(s R) has P = pi a^2 p.
+Its results at a given energy show the effect of p and s.
 """
 
 from typing import NamedTuple

@@ -25,10 +25,10 @@ so that S_T - S_H is at least (1 - theta)^(1/3)/(1 + 5 theta/4) - 1 >= -(5/3) th
 (1 + theta)^(1/3) - 1 + theta/3 <= (2/3) theta. Integrated, delta moves by (2/3) theta a_H^2/R.
 
 Another edge adds N_s (t^2 + s^2 - 2 t^2 s^2/b^2)/h^3 to the kernel, a bracket between 0 and
-t^2 + s^2. For N_s < 0, as of a thin supported plate, the argument holds with |N_s| a^3/h^3 in tau.
-For N_s > 0, as of a thin clamped plate, M may have either sign, |M| <= tau (x^2 + s^2).
-The estimate of z holds; now |psi - 1| <= (4 tau/3)/(1 - 4 tau/3), |I - 1| is within the same
-(2 tau/3)/(1 - 4 tau/3) <= tau, and int M(x, 0) dx within tau/3, so that S_T - S_H is at most
+t^2 + s^2. For N_s < 0, as of a thin supported plate, the argument is valid with |N_s| a^3/h^3 in
+tau. For N_s > 0, as of a thin clamped plate, M may have either sign, |M| <= tau (x^2 + s^2). The
+estimate of z remains valid; now |psi - 1| <= (4 tau/3)/(1 - 4 tau/3), |I - 1| is within the same (2
+tau/3)/(1 - 4 tau/3) <= tau, and int M(x, 0) dx within tau/3, so that S_T - S_H is at most
 
     (1 + theta/3)/(1 - 5 theta/4) - 1 + theta/3 <= (5/2) theta
 
@@ -115,8 +115,8 @@ def lateral_ratio() -> flint.arb:
 def estimates(slope: sp.Expr, depth: sp.Expr) -> Proof:
     """Prove the integrals and the inequalities between rational functions of the argument above.
 
-    Each inequality holds because the difference is a product of factors of known sign, for
-    tau <= 1/4 or theta <= 1/5; cube roots lie below their tangents and above the cubed expressions.
+    Each inequality is true because the difference is a product of factors of known sign, for tau <=
+    1/4 or theta <= 1/5; cube roots lie below their tangents and above the cubed expressions.
     """
     zeta = 2 * _tau / 3 / (1 - 2 * _tau / 3)
     rise = 2 * _tau / 3 / (1 - 4 * _tau / 3)

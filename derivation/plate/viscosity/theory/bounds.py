@@ -15,12 +15,12 @@ where the remaining elastic motion from tan(phi) = -epsilon has z <= n_z A_v |v|
 n_z A_v at most, while the contact lasts 2 delta_m/v0 at least. This is proved for a half-space
 without weight; for a plate, whose bending is elastic, epsilon is that of the whole law.
 The weight, moving down by delta_m, makes the largest U equal to that of the sphere times u > 1. The
-same fraction of it is lost, so that e^2 >= 1 - u (1 - exp(-2 Lambda)/(1 + epsilon^2)). A sphere
-that moves down more than up, z <= n_z A_v |v| at the end, may leave faster:
-e^2 <= 1 + (u - 1) n epsilon.
-The time of a sphere that rises afactorst its weight increases with its loss of speed, by which the
-bound is extended. The statements about the end assume that epsilon(s) and P_e decrease with s and
-that P_e is convex; with weight and plates they are not proved but tested on random scenes.
+same fraction of it is lost, so that e^2 >= 1 - u (1 - exp(-2 Lambda)/(1 + epsilon^2)). At the end
+the sphere is lower than at first contact by z <= n_z A_v |v|. Because of this net work of the
+weight it may leave faster: e^2 <= 1 + (u - 1) n epsilon. The time of a sphere that rises against
+its weight increases with its loss of speed, by which the bound is extended. The statements about
+the end assume that epsilon(s) and P_e decrease with s and that P_e is convex; with weight and
+plates they are not proved but tested on random scenes.
 """
 
 from functools import cache

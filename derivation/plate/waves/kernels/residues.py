@@ -79,7 +79,7 @@ def residue(bends: bool) -> Routine:
         *parts.extra,
         Choice(ratio_q, exact, parts.far[0], parts.near[0]),
         Choice(ratio_p, exact, parts.far[1], parts.near[1]),
-        Let(larger, largest, "only the ratio matters", opaque=True),
+        Let(larger, largest, "only the ratio is needed", opaque=True),
         Let(first, ratio_q / larger),
         Let(second, ratio_p / larger),
         Choice(size, swap, parts.near[1] * first, parts.near[0] * second),

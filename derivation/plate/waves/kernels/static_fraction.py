@@ -16,7 +16,7 @@ unlike, product, excess = sp.symbols("unlike product excess", positive=True)
 TWO = 2 * x_h
 
 
-def _at_rest(expression: sp.Expr) -> sp.Expr:
+def _static(expression: sp.Expr) -> sp.Expr:
     """Evaluate at kap = 0, where p = q = x and shc(p - q) = 1."""
     still: sp.Expr = expression.subs(kap, 0).subs(shc(p - q), 1).subs({p: x_h, q: x_h})
     return still
@@ -31,7 +31,7 @@ def _fraction() -> sp.Expr:
 
 def ratio_at_rest() -> Routine:
     """Return B_a/B_s at kap = 0."""
-    bending_part, extension_part = (_at_rest(form) for form in slow_stiffness())
+    bending_part, extension_part = (_static(form) for form in slow_stiffness())
     fading = 2 * sp.exp(-TWO)
     statements = (
         Let(T, 2 * x),
@@ -89,7 +89,7 @@ def fraction_near_one() -> Claims:
     """Return the static fraction of A0 for small x, as 1 minus a small difference."""
     near, F, less, first, second = sp.symbols("near F less first second")
     steeper, below = sp.symbols("steeper below")
-    F_at_rest = (shc(TWO) - 1) / TWO**2
+    static_F = (shc(TWO) - 1) / TWO**2
     gap = sp.sinh(x * d / 2) ** 2 - sp.sinh(x + x * S / 2) * sp.sinh(x * near / 2)
     statements = (
         Let(S, P + Q),
@@ -100,7 +100,7 @@ def fraction_near_one() -> Claims:
             (F, less),
             "compared",
             (square * S * S, square * d * d, square * near * (2 + S)),
-            (differences(), F_at_rest - differences()),
+            (differences(), static_F - differences()),
         ),
         Let(first, less / F),
         Let(

@@ -130,8 +130,8 @@ def _between(
 ) -> Double:
     """Return kap - x^2 of the zero in each interval, by Newton's method with bisection.
 
-    Most zeros are found in a few steps, some only by many bisections: each step is made for the
-    zeros that are not found yet.
+    Most zeros are found in a few steps, some only by many bisections. Each step is therefore
+    computed only for the zeros that have not been found yet.
     """
     sizes = floor.shape
     low, high, floor, *own = (

@@ -168,15 +168,15 @@ def bending_fraction() -> Formula:
     static_limit()
     residue = bending_zero()[2]
     T_x, steep = 2 * x_h, sp.Symbol("steep", positive=True)
-    at_rest = (shc(T_x) - 1) / T_x**2
-    bent = 16 * x_h**4 * (1 - gam) * at_rest / sp.cosh(x_h) ** 2
+    static = (shc(T_x) - 1) / T_x**2
+    bent = 16 * x_h**4 * (1 - gam) * static / sp.cosh(x_h) ** 2
     unlike = sp.tanh(x_h) ** 2 * (sp.sinh(T_x) - T_x) / (sp.sinh(T_x) + T_x)
     both = [
         form.subs(kap, 0).subs(shc(p - q), 1).subs({p: x_h, q: x_h}) for form in slow_stiffness()
     ]
     load = 8 * x_h**2 * q**2 * (1 - gam) * differences() * p / (sp.sinh(p) * sp.cosh(q))
     answer = p * q**2 / (2 * x_h**2 * sp.tanh(p) * steep)
-    plain = at_rest * sp.cosh(p) * sp.cosh(q) / (differences() * sp.cosh(x_h) ** 2 * steep)
+    plain = static * sp.cosh(p) * sp.cosh(q) / (differences() * sp.cosh(x_h) ** 2 * steep)
     E = (sp.sinh(p + q) - (p + q) * shc(p - q)) / (sp.cosh(p + q) + sp.cosh(p - q))
     B = (sp.sinh(T_x) - T_x) / (sp.cosh(T_x) + 1)
     value = p * q * (p + q) * B / (2 * x_h**3 * E * steep)

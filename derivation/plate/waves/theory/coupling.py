@@ -158,11 +158,11 @@ def conservation() -> Proof:
             ),
             "at the axis": _plain(_loss(axis, nothing, nothing, nothing) + leaked),
         }
-        | _at_rest(),
+        | _static(),
     )
 
 
-def _at_rest() -> dict[str, sp.Expr]:
+def _static() -> dict[str, sp.Expr]:
     """Return delta minus the modes' depth, and the energy of P d delta, for q_j = c_j P_j."""
     rest = [c * f for c, f in zip(_c, _modal_forces, strict=True)]
     depth = _D + sp.Add(*(s * q for s, q in zip(_modal_weights, rest, strict=True)))

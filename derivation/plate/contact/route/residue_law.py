@@ -93,7 +93,7 @@ def supported_depth(depth: float) -> float:
     # Near a root just within the reach of a series, the law is evaluated on both sides of the root.
     served: float = SHALLOW * 2 ** max(0, math.ceil(math.log2(depth / SHALLOW) - 1e-6))
     if served > DEEPEST:
-        raise RouteError(f"this method is valid up to a = {DEEPEST:g} h, got {depth:.4g} h")
+        raise RouteError(f"this method is for contacts up to a = {DEEPEST:g} h, got {depth:.4g} h")
     return served
 
 

@@ -186,7 +186,8 @@ def pole_at_zero() -> Proof:
     (solution,) = sp.solve(sp.expand(upper + lower - sum(poles)), total)
     return prove(
         "Sum over the zeros of J0, with a pole at 0",
-        "Quarter circles around 0; an odd $f$ cancels on the imaginary axes.",
+        "The integrals along quarter circles around 0 are added. On the imaginary axes an odd $f$ "
+        "cancels.",
         {"sum": sp.expand(solution - integral / 2 - c * level / 2 - sp.pi * im)},
     )
 
@@ -265,7 +266,7 @@ def wide_contact_powers(count: int = WIDE_TERMS) -> tuple[sp.Rational, ...]:
     series = sp.series(back_face_function(), T, 0, 4).removeO()
     prove(
         "Stress factor at T = 0",
-        "The first powers from SymPy's own series.",
+        "The first powers are compared with those of SymPy's own series.",
         {
             f"T^{2 * k - 2}": series.coeff(T, 2 * k - 2) - powers[k]
             for k in range(min(3, count + 1))

@@ -169,9 +169,9 @@ def first_order() -> Proof:
     return prove(
         "Indentation of a finite sphere",
         r"The generating function of the Legendre polynomials, with $t = x^2$, gives $\sum P_n/m$ "
-        r"as an integral, and $x = e^{-v}$, $\sinh v = t$ turns it into that of the text. Its "
-        "bounds have the same limit. The mean of a logarithm over two distributions with circular "
-        "symmetry is that of the larger radius.",
+        r"as an integral, and $x = e^{-v}$, $\sinh v = t$ turns it into the integral of the text. "
+        "Its bounds have the same limit. The mean of a logarithm over two distributions with "
+        "circular symmetry is that of the larger radius.",
         lambda growth, start, term, last: {
             "generating function": sp.expand(
                 series - sum(sp.legendre(n, angle) * _x ** (2 * n) for n in range(5))

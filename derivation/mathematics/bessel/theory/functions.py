@@ -330,7 +330,8 @@ def hankel_constants(terms: int = 12) -> Proof:
                     _contains(order, sp.Integer(point), terms)
     return Proof(
         "Hankel's constants",
-        "The modulus and phase series, their remainders within the bounds, contain J0 and J1.",
+        "The modulus and phase series, widened by the bounds of their remainders, contain J0 and "
+        "J1.",
         ("J0", "J1"),
         BY_BALLS,
     )

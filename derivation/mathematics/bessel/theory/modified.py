@@ -98,8 +98,8 @@ def bessel_integral() -> Proof:
     I0, I1, I2 = (sp.besseli(order, _k) for order in range(3))
     return prove(
         "Bessel's integral as a sum",
-        "sin^2 t = (1 - cos 2t)/2 in the generating function; the quotient of the coefficients of "
-        "I_n and of (k/2)^n I0/n! is a binomial coefficient.",
+        "sin^2 t = (1 - cos 2t)/2 is inserted into the generating function; the quotient of the "
+        "coefficients of I_n and of (k/2)^n I0/n! is a binomial coefficient.",
         {
             "I1": _k * (I0 - I2) / 2 - I1,
             "half angle": sp.expand_trig(sp.sin(_x) ** 2 - (1 - sp.cos(2 * _x)) / 2)

@@ -32,7 +32,8 @@ def phase_at_zeros(order: int) -> tuple[int, Proof]:
     theta = (4 * n + q) * sp.pi / 4 - order * sp.pi / 2 - sp.pi / 4
     proof = prove(
         f"Phase at the zeros of J{order}",
-        "theta = beta - nu pi/2 - pi/4 is an odd multiple of pi/2, and each n gives the next one.",
+        "theta = beta - nu pi/2 - pi/4 is an odd multiple of pi/2, and n + 1 gives the next odd "
+        "multiple.",
         {"odd multiple": theta - (2 * n - 1) * sp.pi / 2},
     )
     return q, proof
@@ -57,7 +58,7 @@ def zero_correction(order: int, terms: int) -> Expansion:
     residual = _reversion(order, stretch)
     proof = prove(
         f"McMahon's expansion for J{order}",
-        "It is substituted into x + shift(x) = beta, multiplied by its denominators.",
+        "The expansion is substituted into x + shift(x) = beta, multiplied by its denominators.",
         {f"w^{index}": residual[index] for index in range(terms + 1)},
     )
     return Expansion(f"zero of J{order} minus beta", -1, stretch[1:], proof)
@@ -131,7 +132,8 @@ def slope_squared(terms: int) -> Expansion:
     residual = left * slope - one_plus_s**highest
     proof = prove(
         "J1 at the zeros of J0",
-        "It is substituted into J1^2 (pi x/2) p(x) = 1 at the zero, multiplied by denominators.",
+        "The series is substituted into J1^2 (pi x/2) p(x) = 1 at the zero, multiplied by "
+        "denominators.",
         {f"w^{index}": residual.coeff_monomial(w**index) for index in range(terms)},
     )
     return Expansion("J1^2 times pi beta/2", 0, coefficients, proof)

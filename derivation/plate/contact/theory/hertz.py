@@ -38,8 +38,8 @@ def pressure() -> Formula:
     shape = sp.sqrt(1 - r**2 / a**2)
     proof = prove(
         "Hertz pressure",
-        "The resultant of the pressure over the contact area is $P$; half an ellipsoid has 3/2 of "
-        "its mean height in the centre.",
+        "The resultant of the pressure over the contact area is $P$; half an ellipsoid is 3/2 "
+        "times as high at the centre as in the mean.",
         lambda p: {
             "resultant": resultant.subs(peak, p / shape) - P,
             "compression": sp.Abs(p / shape) + p / shape,

@@ -76,7 +76,7 @@ def hankel(terms: int) -> Coefficients:
     }
     prove(
         "Hankel's expansions of I0 and K0",
-        "The truncated series are substituted into the modified equation: every power they "
+        "The truncated series are substituted into the modified equation: every power that they "
         "determine vanishes.",
         {
             f"{name}, y^{-power}": left.coeff(_y, -power)

@@ -132,7 +132,8 @@ def kappa_by_parts(n: int) -> Proof:
     product = _y ** (n + 1) / (n + 1) * k0 / i0
     return prove(
         f"kappa_{n} by parts",
-        "y (I0 K1 + I1 K0) is constant, 1 as y -> 0; y^(n+1) K0/I0/(n+1) is differentiated.",
+        "y (I0 K1 + I1 K0) is constant and tends to 1 for y -> 0; y^(n+1) K0/I0/(n+1) is "
+        "differentiated.",
         {
             "Wronskian": slope(wronskian),
             "constant": sp.limit(wronskian.subs(small), _y, 0) - 1,

@@ -47,8 +47,8 @@ def flat_punch() -> Proof:
     outside = sp.diff(sp.asin(_c / r), _c) - 1 / sp.sqrt(r**2 - _c**2)
     return prove(
         "Flat punch",
-        "The power series of the transform; the limit of the influence coefficient for a "
-        "half-space; the Laplace transform of J0 on the imaginary axis, integrated from c = 0.",
+        "The transform is compared by its power series, and the influence coefficient is that of a "
+        "half-space. The Laplace transform of J0 on the imaginary axis is integrated from c = 0.",
         {
             "transform": sp.combsimp(sp.gammasimp(bessel * moment / sine)) - 1,
             "half-space": half_space * phi * PLANE_STRAIN_MODULUS - 2,

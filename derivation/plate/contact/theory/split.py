@@ -127,7 +127,7 @@ def identity_in_balls() -> Proof:
             if not (left.overlaps(right) and left.rad() < 1e-18 and right.rad() < 1e-18):
                 raise ProofError(f"Sum identity: {example.name} gives {left} and {right}")
     names = tuple(example.name for example in _TEST_FUNCTIONS)
-    return Proof("Sum identity in numbers", "Both sides overlap as balls.", names, BY_BALLS)
+    return Proof("Sum identity in numbers", "The balls of both sides overlap.", names, BY_BALLS)
 
 
 def _modes(example: _TestFunction, bits: int) -> flint.arb:

@@ -129,7 +129,7 @@ def zero_sum(s: int) -> Laurent:
         residuals = {"value": value, "bend": bend}
     proof = prove(
         f"Z near {s}",
-        "The integral of y^(-s) K0/I0 continued analytically, times -cos(pi s/2)/pi.",
+        "Z is -cos(pi s/2)/pi times the integral of y^(-s) K0/I0, continued analytically.",
         residuals,
     )
     return Laurent(coefficients, proof)
@@ -270,7 +270,7 @@ def excess_for_large() -> Proof:
     short = ((1 - sp.exp(-2 * T)) / 2 + T + T**2) / (sp.sinh(T) ** 2 - T**2)
     return prove(
         "Excess of the plate factor",
-        "Both sides over a common denominator.",
+        "Both sides are written over a common denominator.",
         {"G - 1": plate_factors()[2].expression - short},
     )
 

@@ -72,8 +72,8 @@ def residue_at_roots() -> Proof:
     slope = at_root(sp.diff(below, T))
     return prove(
         "Residue of G at a root",
-        "G's numerator divided by its denominator's derivative, both at T = sinh u; the derivative "
-        "vanishes for cosh u = 1 only, so the pole is simple.",
+        "The residue is the numerator of G over the derivative of its denominator, at T = sinh u. "
+        "This derivative vanishes for cosh u = 1 only, so that the pole is simple.",
         {
             "quotient": plate_factors()[0].expression * below - above,
             "two families": split - 2 * plate_factors()[0].expression,
@@ -106,7 +106,8 @@ def contour_with_poles() -> Proof:
     expected = integral / 2 - (up + down) / (2 * sp.pi) + sp.pi * im
     return prove(
         "Sum over the zeros of J0, with poles",
-        "Each quadrant's contour equals 2 pi i times the residues inside; added and solved.",
+        "Each quadrant's contour equals 2 pi i times the residues inside; both are added and "
+        "solved.",
         {"sum": sp.expand(solution - expected)},
     )
 

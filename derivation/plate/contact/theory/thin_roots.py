@@ -38,8 +38,8 @@ def numbering() -> Proof:
     turned = {n: u + sp.I * sp.pi * n for n in (1, 2)}
     return prove(
         "Roots of sinh T = +-T",
-        "With u = asinh T a root is T = u + i pi n, sinh T = (-1)^n T; one for each n, for "
-        "asinh T + i pi n shrinks its strip.",
+        "With u = asinh T a root is T = u + i pi n, where sinh T = (-1)^n T. There is one for each "
+        "n, because asinh T + i pi n is a contraction of its strip.",
         {f"sinh {n}": sp.sinh(x) - (-1) ** n * sp.sinh(u) for n, x in turned.items()}
         | {f"cosh {n}": sp.cosh(x) - (-1) ** n * sp.cosh(u) for n, x in turned.items()}
         | {"slope": sp.diff(sp.asinh(T), T) - 1 / sp.sqrt(1 + T**2)},

@@ -121,7 +121,8 @@ def reciprocity() -> Proof:
     return prove(
         "Reciprocity of a mode and the bending state",
         "The work of the mode's tractions on the state equals that of the state's tractions on the "
-        "mode: sigma_rr = -(2 mu/b) u at the edge by Hooke's law, and the shear stress there.",
+        "mode. The tractions at the edge are sigma_rr = -(2 mu/b) u, by Hooke's law, and the shear "
+        "stress.",
         {"work": load - b * edge, "stiffness": 2 * mu + stress - 2 * E},
     )
 
@@ -149,8 +150,8 @@ def amplitudes() -> Proof:
     scale = R / a**2 * 8 * sp.pi * eta**3 / alpha
     return prove(
         "Motion suppressed by a clamp",
-        "Reciprocity gives the rotation by the work of the load; psi = chi eta psi' adds 2 chi eta "
-        "times it in first order; the state's deflection at the centre.",
+        "Reciprocity gives the rotation from the work of the load. psi = chi eta psi' adds 2 chi "
+        "eta times this rotation, in first order. The state gives the deflection at the centre.",
         {
             "Hertz": mean - HERTZ_MEAN,
             "central deflection": (deep - (b**2 - r**2) / 2 + lost * b**2 / 2).subs(plate),

@@ -77,7 +77,8 @@ def residues() -> Proof:
     Q, H = bending_function(), stretching_function()
     return prove(
         "Sum over all residues",
-        "Residues at sinh T = s T, T = sinh u, s = (-1)^n; Q and H under T -> -T.",
+        "Residues are computed at sinh T = s T with T = sinh u and s = (-1)^n. Q and H are "
+        "compared for T and -T.",
         {
             "1/J0": j0_slope + sp.besselj(1, _z),
             "Q even": Q.subs(T, -T) - Q,
@@ -228,8 +229,9 @@ def half_plane() -> Proof:
     odd = lower_bessel(sp.diff(1 / sp.besselj(0, _z), _z)).subs(_z, 0)
     return prove(
         "Alternating sum of a thick plate",
-        "Axis, half circle from i rho to -i rho around 0, and residues add up to zero; k/J0 has no "
-        "odd power, so that the half circle contributes nothing else.",
+        "The integrals along the axis and along the half circle from i rho to -i rho around 0, and "
+        "the residues, add up to zero; k/J0 has no odd power, so that the half circle contributes "
+        "nothing else.",
         {"sum": sp.simplify(solution + finite / sp.pi), "odd power": odd},
     )
 

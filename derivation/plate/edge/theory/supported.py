@@ -98,7 +98,8 @@ def states() -> tuple[PlateState, PlateState]:
         stiff = 2 * mu * (3 * lam + 2 * mu) / (lam + 2 * mu)
         prove(
             f"{name} of the whole plate",
-            "Its stresses balance, the faces are free of traction, and w = 0 at r = b, z = 0.",
+            "Its stresses are in equilibrium, the faces are free of traction, and w = 0 at r = b, "
+            "z = 0.",
             {
                 "radial balance": radial,
                 "axial balance": axial,

@@ -162,9 +162,9 @@ def norm() -> Formula:
     slope = 2 * k_n / (1 - nu) - I1 / I0
     proof = prove(
         "Norm of a plate mode",
-        "$w^2 r$ has a primitive. The derivative of $(J_1/J_0 + I_1/I_0)/k$ with respect to $k$ is "
-        "$2 N/(k J_0^2)$, and its value is 1 at $k = 0$. The frequency equations eliminate $J_1$ "
-        "from $N$.",
+        "A primitive of $w^2 r$ gives $N$. The derivative of $(J_1/J_0 + I_1/I_0)/k$ with respect "
+        "to $k$ is $2 N/(k J_0^2)$, and its value is 1 at $k = 0$. The frequency equations "
+        "eliminate $J_1$ from $N$.",
         lambda norm: {
             "primitive": lower_bessel(sp.diff(primitive, _r)) - _r * SHAPE**2,
             "closed form": primitive.subs({_r: 1, _c: PART}) - norm,

@@ -54,7 +54,7 @@ def lagrange() -> Claims:
     exponent, factor = -(n + 3) / 2, 3 / (n + 3)
     prove(
         "Coefficients of the reversed series",
-        "Power and factor of each n give the theory's p_n.",
+        "The power and the factor of each n give p_n of the theory.",
         {
             f"p_{k}": factor.subs(n, k)
             * power_series(plate_law(LAST_P), exponent.subs(n, k), k + 1)[k]

@@ -237,7 +237,8 @@ def linear_motion() -> Formula:
     value = v0 * sp.sqrt(m / xi_k[2]) * sp.sin(sp.sqrt(xi_k[2] / m) * t)
     proof = prove(
         "Linear motion",
-        r"It solves $m \delta'' + \xi_2 \delta = 0$ with $\delta(0) = 0$ and $\delta'(0) = v_0$.",
+        r"The motion solves $m \delta'' + \xi_2 \delta = 0$ with $\delta(0) = 0$ and $\delta'(0) = "
+        "v_0$.",
         lambda value: {
             "equation of motion": m * sp.diff(value, t, 2) + xi_k[2] * value,
             "initial position": value.subs(t, 0),

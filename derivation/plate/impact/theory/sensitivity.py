@@ -112,7 +112,8 @@ def law_slopes() -> tuple[Formula, ...]:
     proof = prove(
         "Slopes of the contact law",
         r"The series is differentiated with respect to $a$. The split is multiplied by $\alpha^2$ "
-        r"and differentiated with respect to $\alpha$, and at fixed $\alpha$ to $\log(h/b)$.",
+        r"and differentiated with respect to $\alpha$ and, at fixed $\alpha$, with respect to "
+        r"$\log(h/b)$.",
         lambda slope, sinc, deeper: {
             "series": sp.diff(delta, a) - slope,
             "mode": sp.diff(alpha**2 * mode.expression, alpha) / (2 * alpha) - sinc,

@@ -155,8 +155,8 @@ def lemma() -> Proof:
     elasticity = _x / (1 + _x)
     return prove(
         "Substitution of the law",
-        "a S_1/int S_1 is least or largest for extreme powers of S_1; time is the integral of "
-        "1/speed.",
+        "a S_1/int S_1 is least or largest if S_1 is a power with an extreme exponent; the contact "
+        "time is the integral of 1/speed.",
         {
             "energy": sp.simplify(work) - solution["energy"],
             "depth": sp.simplify(depth) - solution["depth"],

@@ -61,7 +61,7 @@ def interior_fields() -> tuple[Formula, ...]:
 
     proof = prove(
         "Interior fields",
-        "The stresses are Hooke's law of the displacements and balance without body force; $w$ "
+        "The stresses follow from the displacements by Hooke's law and are in equilibrium; $w$ "
         r"and $u/r + du/dr$ vanish on the edge, where $J_0(b \phi) = 0$.",
         residuals,
         *(*fields.values(), *stated.values()),

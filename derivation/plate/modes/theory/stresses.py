@@ -41,7 +41,7 @@ def modal_stresses() -> tuple[Formula, ...]:
     radial, axial = force_balance(stress)
     proof = prove(
         "Modal stresses",
-        "The separated stresses equal Hooke's law of the mode, and their forces balance.",
+        "The separated stresses are those of the mode by Hooke's law, and they are in equilibrium.",
         lambda zz, rz, rr, tt: {
             "sigma_zz": stress.zz - zz * BESSEL_J0,
             "sigma_rz": stress.rz - rz * BESSEL_J1,

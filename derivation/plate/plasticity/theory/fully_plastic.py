@@ -47,7 +47,7 @@ def mean_pressure() -> sp.Expr:
     at = {wide: sp.sqrt(loading().area)}
     prove(
         "Mean pressure of a limited pressure",
-        "The force divided by the area of the contact.",
+        "It is the force divided by the area of the contact.",
         {"mean": sp.simplify((pressure - onset * xi_y**3 / wide**2).subs(at))},
     )
     return pressure

@@ -87,7 +87,8 @@ def representation() -> Proof:
     force = 2 * sp.pi * sp.integrate(hertz, (_t, 0, a))
     return prove(
         "Pressure by its Abel transform",
-        "By parts with chi(a) = 0; chi = (E*/(pi R)) (a^2 - t^2) has Hertz's force and pressure.",
+        "The transform is integrated by parts, with chi(a) = 0. chi = (E*/(pi R)) (a^2 - t^2) "
+        "gives Hertz's force and pressure.",
         {
             "by parts": sp.expand(by_parts - chi * sp.cos(phi * _t)),
             "Hertz's force": (force - contact_radius().expression).subs(
@@ -119,8 +120,8 @@ def profiles() -> Proof:
     depth, force = sneddon()
     return prove(
         "Abel's transform of the sphere",
-        "r = t sin(theta) in the paraboloid's; the sphere's antiderivative is differentiated. "
-        "Without the plate delta = f(a) and dP/da = 2 E* a d delta/da.",
+        "For the paraboloid r = t sin(theta) is substituted; for the sphere an antiderivative is "
+        "differentiated. Without the plate delta = f(a) and dP/da = 2 E* a d delta/da.",
         {
             "paraboloid": _t * sp.integrate(_t * sp.sin(angle) / R, (angle, 0, sp.pi / 2))
             - parabola,
@@ -170,8 +171,8 @@ def kernel() -> tuple[Formula, Formula]:
     proof = prove(
         "Kernel of the contact's integral equation",
         r"Abel's operator gives the deflection of a mode under $\chi$. With $G = 1$ the sum "
-        r"identity gives $(2/\pi) \int \cos(x t) \cos(x s) dx$, which is $\chi$, and the "
-        r"lateral surface. Finally, $S$ is differentiated.",
+        r"identity gives $(2/\pi) \int \cos(x t) \cos(x s) dx$, whose contribution is $\chi$, and "
+        "the part of the lateral surface. Finally, $S$ is differentiated.",
         lambda mode, lateral: {
             "one mode": one_mode - f.subs(_x, b * phi) / (b * phi * J1**2) * G,
             "thickness": f.subs(_x, b * phi) / (b * phi * J1**2) * (G - 1)

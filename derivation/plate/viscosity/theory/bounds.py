@@ -125,8 +125,8 @@ def _proof(
     return prove(
         "Bounds of the viscous spiral",
         r"The differences between $\phi'/\Omega$ and its bounds are squares; over the first "
-        "quarter it is at least 1. The squares of the force and of its slope by "
-        r"$\phi$ add up to that of its amplitude.",
+        r"quarter $\phi'/\Omega$ is at least 1. The squares of the force and of its derivative "
+        r"with respect to $\phi$ add up to the square of its amplitude.",
         {
             "least": on_circle(turning - least - epsilon * (sine + cosine) ** 2 / 2),
             "most": on_circle(most - turning - epsilon * (sine - cosine) ** 2 / 2),

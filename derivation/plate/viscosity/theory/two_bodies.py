@@ -43,8 +43,8 @@ def contact_time() -> ContactTime:
     alike = {sphere_time: plate_time}
     proof = prove(
         "Two viscoelastic bodies in contact",
-        "Pressure over indentation, with D for the time derivative; the error of the mean "
-        "vanishes for equal bodies and is of second order in the times.",
+        "The ratio of pressure and indentation is expanded, with D for the time derivative. The "
+        "error of the mean vanishes for equal bodies and is of second order in the times.",
         {
             "first order": sp.together(slope - mean * _D / both),
             "second order": sp.simplify(stiffness - (1 + mean * _D) / both + rest),

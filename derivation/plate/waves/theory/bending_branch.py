@@ -91,7 +91,7 @@ def rise_anywhere() -> Proof:
     steep = in_p_and_q(1 - w * other)
     return prove(
         "Slope of the quotient",
-        "Derivatives with respect to log kap: of the quotient, and of the squares of S and d.",
+        "The quotient, and the squares of S and d, are differentiated with respect to log kap.",
         {
             "S^2": in_sines(change(total**2) + in_p_and_q(kap * total * (gam / p + 1 / q))),
             "d^2": in_sines(change(apart**2) - in_p_and_q(kap * apart * (1 / q - gam / p))),

@@ -362,7 +362,7 @@ def _integrals(shape: type[sp.Function]) -> tuple[Callable[[sp.Expr], sp.Expr], 
     single = z / 2 * sign + sp.sinh(2 * p * z) / (4 * p)
     prove(
         "Integrals of hyperbolic functions",
-        "Differentiated.",
+        "The antiderivatives are differentiated.",
         {
             "mixed": in_sines(sp.diff(mixed, z) - shape(p * z) * shape(q * z)),
             "single": in_sines(sp.diff(single, z) - shape(p * z) ** 2),

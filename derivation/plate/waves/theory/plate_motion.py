@@ -92,9 +92,9 @@ def zener_number() -> Formula:
     of_units = m / (TIME_UNIT.subs(K, sp.Rational(4, 3) * E * sp.sqrt(R)) * impedance)
     proof = prove(
         "Zener's number",
-        r"In units of $T$ and $v_0 T$, the equations $m (d + w)'' = -K d^{3/2}$ and $w' = K "
-        r"d^{3/2}/I$ with $I = 8 \sqrt{D \rho H}$ have the coefficient 1 of the force and "
-        r"$\lambda = m/(T I)$ of its rate.",
+        "In units of $T$ and $v_0 T$, the equations $m (d + w)'' = -K d^{3/2}$ and $w' = K "
+        r"d^{3/2}/I$ with $I = 8 \sqrt{D \rho H}$ have the coefficient 1 for the force and "
+        r"$\lambda = m/(T I)$ for its rate.",
         lambda number: {
             "force": rates.speed + force - weight,
             "rate": rates.local + zener * force - speed,

@@ -145,7 +145,7 @@ def wave_stress() -> tuple[Formula, ...]:
     value = in_k(MODE).subs(S_A, of_part.subs(gam, of_nu))
     of_mode = prove(
         "Stress of a mode on the back face",
-        r"$\psi' + \psi/r$ is evaluated on the axis, and divided by that of the part $J_0$.",
+        r"$\psi' + \psi/r$ is evaluated on the axis, and divided by its value for the part $J_0$.",
         lambda value, stated: {
             "axis": sp.cancel(S_A * curved / own / (1 - mindlin.c * t) - stated),
             "gamma": of_nu.subs(nu, lam / (2 * (lam + mu))) - mu / (lam + 2 * mu),

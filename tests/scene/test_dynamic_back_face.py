@@ -53,7 +53,7 @@ def test_stress_of_a_thin_plate_is_that_of_an_integral_over_wave_numbers() -> No
     m = law.model
     H, E, nu = 2.0 * m.h, 2.0 * m.mu * (1.0 + m.poissons_ratio), m.poissons_ratio
     stiff = E * H**3 / (12.0 * (1.0 - nu**2))
-    peak = float(motion.histories[0][3].argmax()) / (motion.courses[0].shape[1] - 1)
+    peak = float(motion.histories[0][3].argmax()) / (motion.histories[0].shape[1] - 1)
     now = peak * result.contact_time
     times = np.linspace(0.0, now, 2001)
     force = motion.rows(times)[3]
@@ -72,7 +72,7 @@ def test_stress_of_a_thin_plate_is_that_of_an_integral_over_wave_numbers() -> No
     factor = E * H / (4.0 * (1.0 - nu)) / (2.0 * math.pi * stiff)
     first = 2.404825557695773 / m.b
     moved = factor * quad(lag, 0.5 * first, 12.0 / m.h, limit=2000)[0]
-    course = stresses._course(motion, law, 400)
+    course = stresses._stress_history(motion, law, 400)
     found = float(np.interp(now, *course))
     assert moved < -0.2 * static  # the plate lags far behind
     assert found == pytest.approx(static + moved, rel=0.03)
@@ -93,7 +93,7 @@ def test_no_stress_before_a_pressure_wave_has_crossed_the_thickness() -> None:
     crossed = 2.0 * m.h / math.sqrt((m.lam + 2.0 * m.mu) / m.density)
     inertia = replace(motion.law.model.inertia, branches="all", modes=0)
     law = replace(motion.law, model=replace(motion.law.model, inertia=inertia))
-    course = stresses._course(motion, law, 160)
+    course = stresses._stress_history(motion, law, 160)
     before = course.times < 0.9 * crossed
     assert before.sum() > 100
     peak = float(np.max(np.abs(course.stress)))

@@ -167,8 +167,8 @@ def back_face_stress() -> tuple[Formula, ...]:
 def pole_at_zero() -> Proof:
     """Prove the contribution of a pole c/z of f at 0 to the sum: c (gamma_E + log(rho/2))/2.
 
-    Both contours of `contour` pass 0 by quarter circles of radius rho, where H/J0 is
-    1 +- (2 i/pi) (log(z/2) + gamma_E); the real axis begins at rho.
+    Both contours of `contour_with_poles` pass 0 by quarter circles of radius rho, where H/J0 is 1
+    +- (2 i/pi) (log(z/2) + gamma_E); the real axis begins at rho.
     """
     contour_with_poles()
     imaginary_axis()

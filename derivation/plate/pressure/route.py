@@ -97,7 +97,7 @@ def _beta(n: int, dps: int) -> mpf:
         return mp.sqrt(mp.pi) * mp.factorial(n) / (2 * mp.gamma(n + mpf(3) / 2))
 
 
-def _seen(z: mpf, count: int) -> list[mpf]:
+def _cosine_means(z: mpf, count: int) -> list[mpf]:
     """Return int_0^1 (1 - x^2)^n cos(z x) dx for n = 0 ... count - 1.
 
     z^2 q_(n+1) = 2 (n+1) [(2n+1) q_n - 2n q_(n-1)], upwards while n < z and downwards from two
@@ -128,7 +128,7 @@ def _modal(eta: mpf, alpha: mpf, count: int, goal: int) -> list[list[mpf]]:
     while goal * mp.log(10) + 2 * mp.log(2 + T) > 2 * T:
         zero, weight = mode(n, mp.dps)
         T = 2 * eta * zero
-        rows.append(_seen(alpha * zero, count))
+        rows.append(_cosine_means(alpha * zero, count))
         weights.append(4 / mp.pi * alpha * weight * excess(T))
         n += 1
     columns = list(zip(*rows, strict=True))

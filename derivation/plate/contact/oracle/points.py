@@ -75,7 +75,7 @@ class PointSeries(NamedTuple):
         return FACTORS[name] * alpha / arb.pi() * value
 
     def slope(self, alpha: arb) -> tuple[arb_poly, arb]:
-        """Return p of `impact.Law`: exact coefficients, and a bound of p's error on [0, 1]."""
+        """Return p of `BallLaw.slope`: exact coefficients, and a bound of p's error on [0, 1]."""
         factor, square = FACTORS["sinc"] * alpha / arb.pi(), alpha * alpha
         error, exact, power = factor * self.rest, [], factor
         for term in self.powers["sinc"].coeffs():

@@ -251,7 +251,7 @@ def _panels(
 ) -> tuple[tuple[Panel, ...], arb]:
     """Return all panels of L's real part, and a bound of both tails.
 
-    The ray ends at y = 2^(end-1) >= power. From there on the integrand is below
+    The ray ends at y = 2^(end-1) >= 4 power. From there on the integrand is below
     5 |z|^power (1 + |G - 1|) e^(-y), and the tail is below 4 times its value at the end, since
     y^power e^(-y/2) decreases from 2 power on. On the axis, for T >= 3,
     (1 - e^(-2T))^2 - 4 T^2 e^(-2T) > 0.8 and the numerator is below 1.4 T^2, so

@@ -67,7 +67,7 @@ def bent_face(width: sp.Expr) -> sp.Expr:
 def _curved() -> dict[str, sp.Expr]:
     """Return the profile of the bending state, and the term that it adds to the kernel.
 
-    `F` is int chi ds, so that the load is 2 pi F.
+    `_resultant` is int chi ds, so that the load is 2 pi times as much.
     """
     bending = states()[1]
     deflected = -bending.w.subs(z, h)

@@ -1,11 +1,11 @@
 """Arb reference of the paper's own motion: its correction, (16), by collocation in balls.
 
 eta' + F eta + G = 0 from rest, with F and G of (17) and (18) as in the theory. The indentation,
-delta_0 in the paper, is proportional to x^3, where F and G are smooth in x. At `last`, where the
-radicand vanishes, they have the singularity of a square root, which x = x_last (1 - u^2) removes.
-On panels of u that are halved towards that point, eta is collocated at Gauss' nodes. The balls
-include all rounding. The collocation error is estimated with more nodes: ten times the difference
-is added to the radius. Convergence is geometric; the estimate is not proved.
+delta_0 in the paper, is proportional to x^3, where F and G are smooth in x. At `last_fraction`,
+where the radicand vanishes, they have the singularity of a square root, which x = x_last (1 - u^2)
+removes. On panels of u that are halved towards that point, eta is collocated at Gauss' nodes. The
+balls include all rounding. The collocation error is estimated with more nodes: ten times the
+difference is added to the radius. Convergence is geometric; the estimate is not proved.
 """
 
 from functools import cache

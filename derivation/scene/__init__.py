@@ -21,8 +21,8 @@ The modules and folders in reading order:
    a material constant from a measured restitution.
 8. `rows` computes many scenes at once in arrays, with the same effects, bounds and laws; `sweep`
    simulates a scene for each value of a key.
-9. `result` contains the results; `output` prints, exports and draws them. 10. `code` generates a
-module with the law and the impact of one scene.
+9. `result` contains the results; `output` prints, exports and draws them.
+10. `code` generates a module with the law and the impact of one scene.
 
 A scene that cannot be computed raises a `SceneError`. NaN occurs only as the restitution of an
 incomplete impact, and in arrays for arguments outside the range.

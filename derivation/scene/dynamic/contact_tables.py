@@ -151,9 +151,8 @@ def contact_of(
     def driven(modes: Modes) -> tuple[Array, Array]:
         """Return P_j over x^3, and s_j - 1."""
         weights_less_one = modes.modal_weights_less_one(a)
-        return mean @ (
-            analysis @ (growth * (1.0 + weights_less_one))
-        ), 0.0 * weights_less_one if pointwise else weights_less_one
+        forces = mean @ (analysis @ (growth * (1.0 + weights_less_one)))
+        return forces, 0.0 * weights_less_one if pointwise else weights_less_one
 
     def moved(modes: Modes) -> Array:
         """Return the static deflection of modes over x^2."""

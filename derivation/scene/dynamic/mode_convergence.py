@@ -50,7 +50,7 @@ BEFORE = 1.0 - 1e-12
 """A time just before the end of a contact over the time of this end, so that rounding cannot move
 it beyond."""
 LINEAR = 0.2
-"""Last part of this interval, in which the force of a contact decreases steadily until its end."""
+"""Last part of the interval `NEARBY`, in which the force decreases steadily until its end."""
 ONCE = 5.0
 """Error by omitted modes over the allowed one, up to which twice as many modes may be
 sufficient."""
@@ -158,10 +158,8 @@ def _alike(found: DynamicImpact, histories: list[Array]) -> list[tuple[slice, in
     histories
         Force and cube of the radius of each contact.
     """
-    whole, starts = (
-        round(NEARBY * TIMES_PER_UNIT),
-        np.cumsum([0, *(one.shape[1] for one in histories)]),
-    )
+    whole = round(NEARBY * TIMES_PER_UNIT)
+    starts = np.cumsum([0, *(one.shape[1] for one in histories)])
     if found.impact_history.problem.yielding is None:
         return [(slice(None), whole)]
     largest = int(np.argmax([np.max(one[0]) for one in histories]))

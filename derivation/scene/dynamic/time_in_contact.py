@@ -147,7 +147,7 @@ def check_deflected(law: ContactLaw, tolerance: float) -> None:
         f"{deflection:.2g} m ({thicknesses:.2g} thicknesses) under a sphere {ratio:.3g} times as "
         "heavy as its first mode; use a thicker or smaller plate"
         f"{_slower(law, tolerance, limit, swing)}, or set inertia.modes to simulate a plate that "
-        "does not root_inverse_mass"
+        "does not stretch"
     )
 
 

@@ -233,7 +233,9 @@ def tables() -> dict[str, Rows]:
     cell_0, ...
         The thin plate's remainder over A: for each power of tau (1/eta, scaled to [-1, 1])
         a row in powers of (A/3)^2.
-    far_0, ... F/A itself for A > 3: likewise, in powers of t in [-1, 1], A^2 scaled. short
+    far_0, ...
+        F/A itself for A > 3: likewise, in powers of t in [-1, 1], A^2 scaled.
+    short
         Row j: the contributions of x^(2k), k = SHORT_TERMS, ..., to the coefficient of x^(2j) of
         the short polynomial, 0 <= x <= 1/SHORT.
     """

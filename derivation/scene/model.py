@@ -243,7 +243,7 @@ def model_of(scene: Scene) -> Model:
         scene = fitted(scene)
     model = numbers_of(scene)
     if model.inertia.infinite_plate and model.density:
-        model = replace(model, b=_unbounded(model), edge="paper")
+        model = replace(model, b=_infinite_plate_radius(model), edge="paper")
     for name, value in zip(NUMBERS, model.numbers, strict=True):
         if not math.isfinite(value) or (value <= 0 and name != "lam"):
             raise SceneError(
@@ -282,7 +282,7 @@ def numbers_of(scene: Scene) -> Model:
         sphere_poissons_ratio=_poissons_ratio(sphere),
         gravity=first_given(scene.impact.gravity, 0.0),
         density=plate.density,
-        yield_stress=_lesser(sphere.yield_stress, plate.yield_stress),
+        yield_stress=_smaller(sphere.yield_stress, plate.yield_stress),
         plate_yield_stress=plate.yield_stress,
         solid_density=sphere.solid_density,
         lightest_density=_lightest(sphere, scene.sphere.mass is None),
@@ -301,13 +301,13 @@ def numbers_of(scene: Scene) -> Model:
     return model
 
 
-def _lesser(one: float, other: float) -> float:
+def _smaller(one: float, other: float) -> float:
     """Return the smaller of two numbers, or of two arrays element by element."""
     lesser = np.minimum(one, other)
     return float(lesser) if np.ndim(lesser) == 0 else lesser
 
 
-def _unbounded(model: Model) -> float:
+def _infinite_plate_radius(model: Model) -> float:
     """Return a first guess of the radius [m] from which no wave returns during the contact."""
     time = scales.time_unit(model) * (HERTZ_TIME + TIME_BY_ZENER * scales.zener_number(model))
     return max(model.shear_speed * time, 4.0 * model.h)

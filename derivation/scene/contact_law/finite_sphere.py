@@ -60,7 +60,7 @@ def finite_size(nu: Numbers, ratio: Values) -> Values:
 
 def _of_sphere(law: ContactLaw, a: Values) -> Values:
     """Return the change of the local indentation by the finite size of the sphere [1]."""
-    share = _sphere_share(law)
+    share = _sphere_fraction(law)
     if not np.any(share):
         return 0.0 * a
     nu: Any = law.model.sphere_poissons_ratio
@@ -70,14 +70,14 @@ def _of_sphere(law: ContactLaw, a: Values) -> Values:
     return change
 
 
-def _sphere_share(law: ContactLaw) -> Any:
+def _sphere_fraction(law: ContactLaw) -> Any:
     """Return the compliance of the sphere over that of both bodies [1]."""
     return law.softness / (1.0 + law.softness)
 
 
 def _of_faces(law: ContactLaw, a: Values) -> Values:
     """Return the change of the local indentation by the motion of both faces [1]."""
-    model, share = law.model, _sphere_share(law)
+    model, share = law.model, _sphere_fraction(law)
     moved: Any = share**2 * kernels.face_motion(np.asarray(model.sphere_poissons_ratio))
     moved = moved + (1.0 - share) ** 2 * kernels.face_motion(np.asarray(model.poissons_ratio))
     ratio: Any = a / model.R
@@ -113,7 +113,7 @@ def vibration_error(law: ContactLaw, a: Values) -> Values:
         Largest contact radius [m].
     """
     ratio = a / law.model.R
-    least = STIFFER * _sphere_share(law) * ratio
+    least = STIFFER * _sphere_fraction(law) * ratio
     change: Values = VIBRATION * ratio * ratio * np.maximum(_of_sphere(law, a), least)
     return change
 

@@ -112,7 +112,7 @@ def _ripple(rough: DynamicImpact, found: DynamicImpact) -> tuple[float, float]:
         fine.append(_compared(found.rows(new)))
         change.append(np.abs(fine[-1] - _compared(rough.rows(old))))
     histories, changes = np.hstack(fine), np.hstack(change)
-    for part, width in _alike(found, fine):
+    for part, width in _parts_of_history(found, fine):
         changes[:, part] = _largest_nearby(changes[:, part], width)
     largest = np.max(histories, axis=1)
     above, below = np.max(histories + changes, axis=1), np.max(histories - changes, axis=1)
@@ -134,20 +134,20 @@ def _ripple_of_end(rough: DynamicImpact, found: DynamicImpact) -> float:
     if both <= end - width:  # the duration itself changes by more
         return 0.0
     times = np.linspace(end - width, both, 2 + math.ceil(part * TIMES_PER_UNIT))
-    change = np.max(np.abs(_falling(found, times) - _falling(rough, times)))
+    change = np.max(np.abs(_linear_at_end(found, times) - _linear_at_end(rough, times)))
     late = LINEAR * width
-    rate = float(_falling(found, np.array([end - late]))[0]) / late
+    rate = float(_linear_at_end(found, np.array([end - late]))[0]) / late
     return float(change) / (rate * end)
 
 
-def _falling(run: DynamicImpact, times: Array) -> Array:
+def _linear_at_end(run: DynamicImpact, times: Array) -> Array:
     """Return the quantity that decreases linearly at the end of a contact, at times [s]."""
     rows = run.rows(times)
     history = rows[P] if run.law.viscous else np.maximum(rows[C], 0.0) ** 2
     return np.asarray(history)
 
 
-def _alike(found: DynamicImpact, histories: list[Array]) -> list[tuple[slice, int]]:
+def _parts_of_history(found: DynamicImpact, histories: list[Array]) -> list[tuple[slice, int]]:
     """Return parts of the history, and the number of times over which each has equal changes.
 
     During unloading a plastic contact is stiffer and its ripple larger. It cannot reach the largest

@@ -43,7 +43,7 @@ def dynamic_impact_of(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
     )
     with_earlier = zip(history.contacts, (None, *history.contacts[:-1]), strict=True)
     inertia = InertiaDetails(
-        tuple(_touch(problem, *pair) for pair in with_earlier),
+        tuple(_contact_interval(problem, *pair) for pair in with_earlier),
         problem.T * total,
         history.reason,
         history.remedy,
@@ -112,7 +112,7 @@ def _damped_octaves(problem: DynamicProblem, a: float) -> float:
     return octaves * min(1.0, 2.0 * ratio * slowest)
 
 
-def _touch(
+def _contact_interval(
     problem: DynamicProblem, touching: ContactRun, earlier: ContactRun | None
 ) -> ContactInterval:
     """Return a contact in SI units; `earlier` is the one before, if there is one."""

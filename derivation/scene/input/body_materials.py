@@ -143,7 +143,7 @@ def material_problems(tables: Mapping[str, Any]) -> list[str]:
     """Return the problems of material names in the tables of a scene, which may be invalid."""
     given = tables.get(OWN_MATERIALS)
     names = [str(name) for name in given] if isinstance(given, Mapping) else []
-    problems = list(_names_alike(names))
+    problems = list(_name_problems(names))
     for table in ("sphere", "plate"):
         keys = tables.get(table)
         name = keys.get("material") if isinstance(keys, Mapping) else None
@@ -165,7 +165,7 @@ def _massless(sphere: Mapping[str, Any]) -> bool:
     return sphere.get("mass") is None and sphere.get("density") is None
 
 
-def _names_alike(names: Iterable[str]) -> Iterator[str]:
+def _name_problems(names: Iterable[str]) -> Iterator[str]:
     """Yield a message for each name of an own material that is empty or not unique."""
     first = dict[str, str]()
     for name in names:

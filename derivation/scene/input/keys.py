@@ -169,7 +169,7 @@ def rivals(place: str) -> set[str]:
     table, _, key = place.rpartition(".")
     known = table_of(table)
     assert known is not None
-    return {f"{table}.{other}" for other in _instead(known, key)}
+    return {f"{table}.{other}" for other in _excluding_keys(known, key)}
 
 
 def varied(scene: Scene, values: Mapping[str, float | str]) -> dict[str, Any]:
@@ -185,12 +185,12 @@ def varied(scene: Scene, values: Mapping[str, float | str]) -> dict[str, Any]:
         assert table is not None
         for part in name.split(".", 1):
             given = given.setdefault(part, {})
-        for other in _instead(table, key):
+        for other in _excluding_keys(table, key):
             given.pop(other, None)
         body = getattr(scene, name, None)
         if isinstance(body, Sphere | Plate):
             for other, constant in constants_beside(key, body, materials).items():
-                if not _instead(table, other) & set(given):
+                if not _excluding_keys(table, other) & set(given):
                     given.setdefault(other, constant)
         given[key] = _typed(field_of(place), value)
     return data
@@ -219,7 +219,7 @@ def _varied_keys() -> list[str]:
     ]
 
 
-def _instead(table: type[Table], key: str) -> set[str]:
+def _excluding_keys(table: type[Table], key: str) -> set[str]:
     """Return the keys that exclude a key, such as half_thickness for thickness."""
     return {
         other

@@ -203,11 +203,11 @@ def _fit(text: str) -> Fit:
     value = measured.value(CLOSE["static"])
     found, changed = (measured.simulated(x) for x in (value, (1.0 + CHANGE) * value))
     error = found.bound + abs(found.restitution / measured.goal - 1.0)
-    error = _over(CHANGE * error, math.log(changed.restitution / found.restitution))
+    error = _error_over_slope(CHANGE * error, math.log(changed.restitution / found.restitution))
     return Fit(value, error, found.bound, error, 0.0)
 
 
-def _over(error: float, slope: float) -> float:
+def _error_over_slope(error: float, slope: float) -> float:
     """Return an error over the size of a slope; infinite if the slope vanishes."""
     return error / abs(slope) if slope else math.inf
 
@@ -241,7 +241,7 @@ def _with_inertia(measured: Measurement, rtol: float | None) -> Fit:
         found = value, accurate.simulated(value)
     value, trial = found
     error = trial.bound + abs(trial.restitution / measured.goal - 1.0)
-    return Fit(value, ratio * error, trial.bound, _over(error, slope), parts)
+    return Fit(value, ratio * error, trial.bound, _error_over_slope(error, slope), parts)
 
 
 def _sensitivities(measured: Measurement, value: float) -> tuple[float, float]:

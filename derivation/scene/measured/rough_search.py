@@ -55,11 +55,11 @@ def rough_value(loose: Measurement) -> float | None:
         if quick := _lossless(replace(half, work=QUICK)):
             _check_below(half, quick)
         few.check_below(cheap, 0.0)
-    value = None if cheap is None else _by_few(few, half, cheap)
+    value = None if cheap is None else _value_with_few_modes(few, half, cheap)
     whole = _lossless(half)
     if whole is not None:
         _check_below(half, whole)
-    if value and _alike(cheap, whole, loose.goal):
+    if value and _same_restitution(cheap, whole, loose.goal):
         return value
     lowest: UnreachedError | None = None
     if whole is not None:
@@ -86,7 +86,7 @@ def rough_value(loose: Measurement) -> float | None:
     return None
 
 
-def _by_few(few: Measurement, half: Measurement, lossless: Trial) -> float | None:
+def _value_with_few_modes(few: Measurement, half: Measurement, lossless: Trial) -> float | None:
     """Return the value that `PART` of the modes give; None if there is none.
 
     Raises
@@ -107,7 +107,7 @@ def _by_few(few: Measurement, half: Measurement, lossless: Trial) -> float | Non
     except UnreachedError:
         raise
     except SceneError:
-        if _alike(lossless, _lossless(half), 0.0):
+        if _same_restitution(lossless, _lossless(half), 0.0):
             raise smallest from None
     return None
 
@@ -123,7 +123,7 @@ def _exceeds(fine: Measurement, value: float) -> bool:
     return False
 
 
-def _alike(few: Trial | None, half: Trial | None, goal: float) -> bool:
+def _same_restitution(few: Trial | None, half: Trial | None, goal: float) -> bool:
     """Return whether `PART` and `HALF` of the modes give about the same restitution.
 
     They then determine about the same constant for the measured restitution.

@@ -89,13 +89,13 @@ def selected(
         The results that the tolerance applies to.
     """
     groups: list[Group | Rejected] = []
-    for rows in _alike(model, len(rtol)):
+    for rows in _with_equal_effects(model, len(rtol)):
         part = model.take(rows)
         try:
             given = candidates_of(part.take(0), wanted)
         except SceneError:
             continue
-        waiting = _begun(given, part, rtol[rows], outputs)
+        waiting = _certain_effects(given, part, rtol[rows], outputs)
         if any(given.left(included) for included in waiting):
             _cache(given, part)
         while waiting:
@@ -125,7 +125,7 @@ def _cache(given: Candidates, model: Model) -> None:
         _ = model.supports
 
 
-def _begun(
+def _certain_effects(
     given: Candidates, model: Model, rtol: Array, outputs: Sequence[str]
 ) -> dict[frozenset[str], list[Rows]]:
     """Return the rows by the effects that they certainly include."""
@@ -199,7 +199,7 @@ def _evaluated(
     return error, fine, np.column_stack(sizes) if sizes else np.empty((len(rows), 0))
 
 
-def _alike(model: Model, count: int) -> list[Rows]:
+def _with_equal_effects(model: Model, count: int) -> list[Rows]:
     """Group rows to which the same effects apply, because the same numbers are zero or infinite."""
     kinds = np.zeros(count, dtype=np.int64)
     for field in fields(model):

@@ -131,7 +131,7 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
         inner = Shape(*(x[..., :-1] for x in shape))
         elasticity = nodes.x * mapped(nodes.derivative, inner.additive) / inner.additive
         own = law.spherical or law.solved  # else the contact radius is Hertz's
-        equal = _begun(0.0, radii * np.cbrt(shape.force) if own else radii)
+        equal = _prepended(0.0, radii * np.cbrt(shape.force) if own else radii)
     fall, rise = np.maximum(0.0, -_least(elasticity)), np.maximum(0.0, _most(elasticity))
     growth = np.ones_like(rise)
     if law.plastic:  # derivation step 31: S grows with xi, and a^2 with xi^3
@@ -142,7 +142,7 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
             growth = growth * (1.0 + MARGIN * np.maximum(0.0, _most(1.0 / swelling) - 1.0))
     depth = a * (a / law.model.R) * shape.depth[..., -1:]
     context = BoundContext(equal, _number(depth), partial(_samples, law, upper))
-    slope = _begun(1.0, shape.additive)
+    slope = _prepended(1.0, shape.additive)
     return LargestContact(law, _number(a), context, slope, MARGIN * fall, MARGIN * rise, growth)
 
 
@@ -157,7 +157,7 @@ def _at_most_one(change: Numbers) -> Numbers:
     return capped
 
 
-def _begun(first: float, values: Array) -> Array:
+def _prepended(first: float, values: Array) -> Array:
     """Return the values of each scene with another one before them."""
     start = np.full((*values.shape[:-1], 1), first)
     return np.concatenate((start, values), axis=-1)

@@ -106,12 +106,12 @@ def _tables(kernel: Kernel, first: Ball, weights: list[Ball]) -> tuple[tuple[flo
         last = 2 * sum((f * t for f, t in zip(values, waves, strict=True)), Ball(0)) / TERMS
         if not abs(last) < CUT_OFF:
             raise ArithmeticError(f"truncation error of {name} with {TERMS} coefficients: {last}")
-        rows.append(tuple(nearest_double(c) for c in _that_count(in_powers(values))))
+        rows.append(tuple(nearest_double(c) for c in _significant(in_powers(values))))
     return tuple(rows)
 
 
-def _that_count(coefficients: list[Ball]) -> list[Ball]:
-    """Return the coefficients' midpoints, up to the last one that is not negligible beside 1/8."""
+def _significant(coefficients: list[Ball]) -> list[Ball]:
+    """Return the midpoints of the coefficients, up to the last one above 1e-22."""
     points = [c.mid() for c in coefficients]
     last = max(i for i, c in enumerate(points) if abs(c) > 1e-22)
     return points[: last + 1]

@@ -95,7 +95,7 @@ def coupling_loss(rate: sp.Expr, force: sp.Expr, modal_force: sp.Expr) -> sp.Exp
     return rate * (force - modal_force)
 
 
-def _along(energy: sp.Expr, rates: dict[sp.Expr, sp.Expr]) -> sp.Expr:
+def _energy_rate(energy: sp.Expr, rates: dict[sp.Expr, sp.Expr]) -> sp.Expr:
     """Return the rate of an energy; generic functions end as plain symbols.
 
     int P dD has the slope P D', and P_j has s_j P'.
@@ -131,7 +131,7 @@ def _loss(weights: list[sp.Expr], stored: sp.Expr, lag: sp.Expr, admittance: sp.
     rates = {a: _growth, _z: way, _v: _g - load[0] / _m, **dict(zip(_q, _rate, strict=True))}
     for q, v, omega, c, driven in zip(_q, _rate, _omega, _c, load[1:], strict=True):
         rates[v] = omega**2 * (c * driven - q)
-    return _along(energy, rates).subs(_v, way)
+    return _energy_rate(energy, rates).subs(_v, way)
 
 
 @cache
@@ -174,7 +174,7 @@ def _static() -> dict[str, sp.Expr]:
             for q, s, f, c in zip(rest, _modal_weights, _modal_forces, _c, strict=True)
         )
     )
-    work = _along(stored, {a: sp.Integer(1)}) - _along(depth, {a: sp.Integer(1)}) * _P
+    work = _energy_rate(stored, {a: sp.Integer(1)}) - _energy_rate(depth, {a: sp.Integer(1)}) * _P
     return {
         "static indentation": sp.expand(depth.subs(_D, own) - law),
         "static energy": _plain(work),

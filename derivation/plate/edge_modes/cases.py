@@ -75,7 +75,7 @@ def _ends() -> Iterator[HardCase]:
 
 _FREE = 1e-9
 """1 + nu below which a support has little stiffness: a function that computes 1 + nu exactly
-keeps its accuracy there, whatever the condition number of nu."""
+keeps its accuracy there, even if the condition number of nu is large."""
 
 
 # --- references

@@ -10,7 +10,7 @@ from derivation.scene.kernels import Numbers
 class ImpactErrors(NamedTuple):
     """Bounds on the relative errors of the results of an impact, without those of the model [1].
 
-    A result without a bound is compared with a limit as it is.
+    A result without a bound is compared with a limit without an error.
     """
 
     contact_time: Numbers = 0.0

@@ -13,7 +13,7 @@ from derivation.scene.quantity import percent
 def exceeds(value: Numbers, limit: Numbers, error: Numbers) -> Any:
     """Return whether a positive value exceeds a limit, or may do so by its relative error [1].
 
-    A value whose error is unknown, thus infinite, is compared without it.
+    A value with an unknown error, which is infinite, is compared without it.
     """
     known = np.where(np.isfinite(error), error, 0.0)
     return (value > 0.0) & (value * (1.0 + known) > limit)

@@ -93,7 +93,7 @@ class ImpactHistory:
 
     @property
     def complete(self) -> bool:
-        """Whether the sphere has left the plate for good."""
+        """Whether no further contact follows."""
         return not self.remedy
 
 

@@ -266,10 +266,10 @@ class Refinement:
 
         As in `_of_chosen_modes`, the larger one of the changes since half and since a quarter as
         many modes is used. The second result has the change since half as many modes alone. The
-        first result is None if the coarser runs have entirely different results; both are if the
-        scene gives a number of modes, the modes of the first run are slower than the contact, or a
-        coarser run fails, is incomplete, or shows that the first one cannot be accurate enough. The
-        coarser runs are not charged to the budget.
+        first result is None if the results of the coarser runs differ by 100 % or more; both are if
+        the scene gives a number of modes, the modes of the first run are slower than the contact,
+        or a coarser run fails, is incomplete, or shows that the first one cannot be accurate
+        enough. The coarser runs are not charged to the budget.
 
         Parameters
         ----------

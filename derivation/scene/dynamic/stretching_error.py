@@ -4,8 +4,8 @@ The estimates are multiples of the relative stiffening S = A (w/H)^2 under a sta
 not proved: their factors were chosen so that they cover the differences between a linear and a
 von Karman plate in 2228 simulated impacts of one to 170 contacts, with w/H from 0.04 to 7 and three
 edges, apart from jumps of the contact time. 659 of the impacts are elastic without damping, 599
-plastic, 548 viscoelastic; in 222 the plate is damped, and in 200 damping adds to one of the former.
-The tests repeat a few of them.
+plastic, 548 viscoelastic; in 222 the plate is damped, and in 200 damping is combined with a plastic
+or viscoelastic contact. The tests repeat a few of them.
 """
 
 from collections.abc import Sequence

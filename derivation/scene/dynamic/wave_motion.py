@@ -141,7 +141,7 @@ class InertiaDetails:
 
     @property
     def complete(self) -> bool:
-        """Whether the sphere has left the plate for good."""
+        """Whether no further contact follows."""
         return not self.remedy
 
     def left(self, outputs: Sequence[str]) -> tuple[float, float]:

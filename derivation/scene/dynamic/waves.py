@@ -63,7 +63,7 @@ def impact(
     outputs
         The results that the goal applies to.
     need
-        Largest error by omitted modes and branches with which the results are of use [1].
+        Largest error by omitted modes and branches with which the results are useful [1].
 
     Raises
     ------

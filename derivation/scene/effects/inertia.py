@@ -51,8 +51,9 @@ LOSS_BY_ZENER, LEAST = 2.0, 0.03
 infinite plate with a small lambda (Zener 1941), and the least restitution that bounds assume."""
 FLIGHT_GROWTH, LATER_PEAK = (1.0, 1.0 / 6.0), 0.5
 """Growth of the bounds on the largest values and on the restitution by the time between contacts,
-over the contact time on a plate without deflection; and the force of a later contact, over the
-largest, from which the former grow. Without growth, changes were up to 2.1 times the bounds."""
+over the contact time on a plate without deflection; and the force of a later contact over the
+largest force from which the bounds on the largest values grow. Without growth, changes were up to
+2.1 times the bounds."""
 SPLIT = 0.4
 """Deviation of the modes over the local indentation from which the first contact may split, so that
 its duration jumps. It split in 15 of 626 random scenes with Zener parameters up to 1600, at ratios

@@ -85,7 +85,7 @@ def _remarks(result: "Result") -> Iterator[str]:
         names = ", ".join(name.replace("_", " ") for name in others)
         yield (
             f"Unknown: {names}, which accuracy.outputs does not name: omitted effects or modes may "
-            "change them by as much as they are"
+            "change them by 100 % or more"
         )
     yield f"Effects: {result.effects.summary}"
     if result.energy_balance is not None and result.complete:

@@ -207,7 +207,7 @@ def prepare(h: ArrayLike, b: ArrayLike) -> PreparedPlate:
 
 
 def _kept(length: ArrayLike) -> ArrayLike:
-    """Return a number as it is, or a copy of an array, which its owner may change later."""
+    """Return a number, or a copy of an array, because the caller may change the array later."""
     return length if isinstance(length, (int, float)) else np.array(length)
 
 

@@ -12,7 +12,7 @@ PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 IN_FRONT = 3
 """Largest number of digits before the decimal point."""
 FEWEST_DIGITS, MOST_DIGITS = 2, 12
-"""Limits of the number of significant digits that are shown."""
+"""Limits of the number of significant digits that are shown; fewer if the error is large."""
 ONE_DIGIT, NO_DIGITS = 0.3, 1.0
 """Relative errors from which one digit is shown, and none."""
 

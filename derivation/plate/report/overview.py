@@ -14,7 +14,7 @@ from derivation.scene.impact import simulate
 from derivation.scene.scene import Scene, read
 
 POINTS, PLACES = 161, 4
-"""Times of a history; places of numbers drawn, so that the last bits of a machine do not show."""
+"""Number of times of a history, and digits of drawn numbers: equal on all machines."""
 SHOWN = {
     "published sum": "as published",
     "direct sum": "sum over modes",

@@ -35,7 +35,7 @@ FIRST = 4000.0
 error then decreased by factors of up to 2300, with a single contact by up to 170."""
 SHORT = 4.0
 """Largest wave number times half the thickness from which the contact time converges regularly."""
-CALMED = {"A0": 22.0, "all": 6.5}
+RIPPLE_RATIO = {"A0": 22.0, "all": 6.5}
 """Largest expected factors by which twice as many modes reduce the ripple of the force: at most
 22.1 and 6.2 between runs of 13 random impacts, often below 2 with all branches."""
 RIPPLE, DECAY = 1.25, 2.0
@@ -59,7 +59,7 @@ COMPARED, STEADY, SLOWEST = 3, 1.3, math.sqrt(2.0)
 decreases faster; the smallest factor by which the contact time is expected to improve if modes are
 doubled. In random scenes, none of the 46 simulations with at least three such runs that met their
 tolerance would have ended early, and 17 of those that did not."""
-DEARER, DEAREST = {"A0": 2.0, "all": 4.0}, 4.0
+LEAST_WORK_RATIO, LARGEST_WORK_RATIO = {"A0": 2.0, "all": 4.0}, 4.0
 """Smallest factor by which the work grows if the bending modes are doubled; the largest one with
 the branch A0 alone."""
 QUICKLY = 2e5
@@ -268,14 +268,14 @@ def unreachable(
         return False
     next_work = work
     branches = "all" if law.model.inertia.branches == "all" else "A0"
-    dearer, calmed = DEARER[branches], CALMED[branches]
+    work_ratio, ripple_ratio = LEAST_WORK_RATIO[branches], RIPPLE_RATIO[branches]
     shortest = float(np.max(found.impact_history.problem.contact.modes.phi)) * law.model.h
     timed = REGULAR if shortest > SHORT else QUICK
     resolved = fast(law, coarser(count))
     doublings, count = 1, 2 * count
     while not beyond_limits(law, count, work, near=True):
         count, doublings = 2 * count, doublings + 1
-        work = max(dearer * work, _least_work(found, law, count))
+        work = max(work_ratio * work, _least_work(found, law, count))
     if "max_force" in reach.outputs and next_work > QUICKLY:
         echo = _with_modes(found, count).echo_error
         if echo + found.inertia.left(reach.outputs)[1] > reach.need:
@@ -284,7 +284,7 @@ def unreachable(
     for name, factor in factors.items():
         first = factor if resolved or factor == REGULAR else FIRST
         error = found.inertia.error_by_change(name) / (first * factor ** (doublings - 1))
-        ripple = found.inertia.error_by_ripple(name) / ((first / factor) * calmed**doublings)
+        ripple = found.inertia.error_by_ripple(name) / ((first / factor) * ripple_ratio**doublings)
         if max(error, ripple, _after(runs, name, doublings)) > reach.need:
             return True
     return False
@@ -305,7 +305,7 @@ def attainable(run: DynamicImpact) -> InertiaDetails:
         return run.inertia
     count, work = history.problem.contact.modes.phi.size, work_of(history)
     while not beyond_limits(law, count, work, near=False):
-        count, work = 2 * count, DEAREST * work
+        count, work = 2 * count, LARGEST_WORK_RATIO * work
     return _with_modes(run, count)
 
 

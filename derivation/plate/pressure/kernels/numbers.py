@@ -33,7 +33,8 @@ THIN = 16
 WIDEST = 7
 """Largest a/h. In a thin plate, contact at the centre is lost before that."""
 DIRECTIONS, LARGEST_T = 80, 24
-"""Gauss nodes for a thin plate, where 4 T^2 e^(-2T), which is G - 1 there, is below 1e-17."""
+"""Number of Gauss nodes for a thin plate, and the largest T, where G - 1 = 4 T^2 e^(-2T) <
+1e-17."""
 FADED = 23
 """T = 2 eta j_n up to which modes are summed in plates that are not thin."""
 WIDEST_OVER_B = 0.95

@@ -1,6 +1,6 @@
 """The subjects of the paper, and the names that the files of a subject export.
 
-A subject is a folder beside this module. To add one, name it in `SUBJECTS`. Each of its files has
+A subject is a folder next to this module. To add one, name it in `SUBJECTS`. Each of its files has
 a role and exports what is listed here, under the listed name. Files that a subject does not need
 are omitted.
 

@@ -20,7 +20,7 @@ from derivation.scene.scene import TABLES, Material, Scene, read
 EXAMPLE = "write for example plate.thickness=1e-3:1e-2:50 or plate.material=glass,steel"
 """Example of a sweep."""
 SWITCH = {"true": True, "false": False}
-"""Values of an effect besides "auto", by their names."""
+"""Values of an effect other than "auto", by their names."""
 MATERIAL = "material"
 """Key that takes the name of any material."""
 OF_MATERIAL = (
@@ -28,7 +28,7 @@ OF_MATERIAL = (
     *("plate.density", "plate.yield_stress", "plate.retardation_time", "plate.tensile_strength"),
     *("plate.loss_factor", "measured.restitution"),
 )
-"""Constants that a scene gives for the material of a body, besides elastic constants. The measured
+"""Constants that a scene gives for the material of a body, without elastic constants. The measured
 restitution belongs to the material of the plate."""
 
 

@@ -100,14 +100,14 @@ def plate_of(eta: float) -> Plate:
 
 
 def with_margins_of_thin(bend: float, rest: float, roots: float) -> Plate:
-    """Return a thin plate with margins for rounding and for the roots that are left out."""
+    """Return a thin plate with margins for rounding and for the omitted roots."""
     return Plate(bend, ROOTS_LINEAR * roots + 1e-14 * bend, rest * SLACK + ROOTS_CUBIC * roots)
 
 
 def with_margins_of_thick(
     bend: float, size: float, rest: float, more_bend: float, more_rest: float
 ) -> Plate:
-    """Return a thick plate with margins for rounding and for the modes that are left out."""
+    """Return a thick plate with margins for rounding and for the omitted modes."""
     return Plate(bend, more_bend + 1e-13 * size, rest * SLACK + more_rest)
 
 

@@ -1,6 +1,7 @@
 """The least time in contact, known before a simulation, and refusals that follow from it."""
 
 import math
+import re
 from typing import Any
 
 import pytest
@@ -58,6 +59,88 @@ def test_mass_on_a_stiff_spring_stops_after_a_quarter_of_a_period() -> None:
     compliance = sum(modes.compliance) + 1.0 / (1.25 * stiffness * depth**0.5)
     quarter = 0.5 * math.pi * (model.m * compliance) ** 0.5
     assert time_in_contact.stopping_time(law, modes) == pytest.approx(quarter, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("radius", "plate"),
+    [
+        (0.008, GLASS | {"radius": 0.03, "thickness": 0.5e-3}),
+        (0.01, {"material": "PMMA", "edge": "simply-supported", "radius": 0.06, "thickness": 1e-3}),
+        (0.02, {"material": "steel", "edge": "paper", "radius": 0.06, "thickness": 1e-3}),
+    ],
+)
+def test_heavy_sphere_deflects_the_plate_as_far_as_is_estimated(
+    radius: float, plate: dict[str, Any]
+) -> None:
+    tables = scene(radius, plate, 0.02)
+    del tables["accuracy"]
+    modal = {"effects": {"inertia": True}, "inertia": {"modes": 24, "branches": "A0"}}
+    result = simulate(read(tables | modal))
+    assert result.complete
+    motion, law = result.dynamics, result.effects.law
+    modes = plate_of(law, 24).modes
+    ratio = law.model.m * float(modes.inverse_modal_mass[0])
+    assert ratio > time_in_contact.SPRING
+    estimate = law.model.v0 * time_in_contact.half_period(law.model.m, modes) / math.pi
+    actual = motion.deflection_before_separation(law) / estimate
+    assert time_in_contact.DEFLECTED < actual < 1.0
+
+
+def test_heavy_sphere_on_a_plate_that_stretches_is_refused_before_the_first_step() -> None:
+    """The proposed speed is the largest that is not refused; any is simulated with given modes."""
+
+    def check(speed: float, **more: Any) -> None:
+        phone = scene(0.0158, GLASS | {"radius": 0.03, "thickness": 1.1e-3}, speed)
+        time_in_contact.check_long(selected_effects(read(phone | more))[1].law, 1e-8)
+
+    with pytest.raises(SceneError, match="stretching") as error:
+        check(4.4)
+    given = re.search(r"at most ([\d.]+) m/s", str(error.value))
+    assert given
+    check(float(given[1]))
+    check(4.4, inertia={"modes": 16})
+    with pytest.raises(SceneError, match="stretching"):
+        check(float(given[1]) + 0.1)
+
+
+@pytest.mark.parametrize(("thickness", "usable"), [(0.8e-3, True), (0.4e-3, False)])
+def test_proposed_speeds_allow_for_the_weight_of_the_sphere(thickness: float, usable: bool) -> None:
+    """The plate deflects twice as far as under the weight at rest even if the sphere has no speed.
+
+    The proposed speeds deflect it as far as they are meant to.
+    """
+    plate = GLASS | {"radius": 0.035, "thickness": thickness}
+    phone = scene(0.0158, plate, 2.0)
+    phone["sphere"]["mass"], phone["impact"]["gravity"] = 0.13, 9.81
+    del phone["accuracy"]
+    with pytest.raises(SceneError, match="stretching") as error:
+        simulate(read(phone))
+    text = str(error.value)
+    low = re.search(r"\(about ([\d.]+) m/s for usable results", text)
+    assert bool(low) == usable
+    most = re.search(r"at most ([\d.]+) m/s", text)
+    limit = re.search(r"less than ([\d.]+) m, at which", text)
+    assert most
+    assert limit
+    part = math.sqrt(time_in_contact.USABLE / time_in_contact.FORCE)
+    for named, deflection in ((most, 1.0), *([(low, part)] if low else [])):
+        phone["impact"]["speed"] = float(named[1])
+        modal = {"effects": {"inertia": True}, "inertia": {"modes": 24, "branches": "A0"}}
+        result = simulate(read(phone | modal))
+        actual = result.dynamics.deflection_before_separation(result.effects.law)
+        assert 0.7 < actual / (deflection * float(limit[1])) < 1.1
+
+
+def test_a_speed_that_needs_too_many_time_steps_is_not_proposed() -> None:
+    plate = GLASS | {"radius": 0.063, "thickness": 0.53e-3, "edge": "simply-supported"}
+    phone = scene(0.0158, plate, 0.7)
+    phone["sphere"]["mass"] = 0.13
+    with pytest.raises(SceneError, match="stretching") as error:
+        simulate(read(phone))
+    assert "m/s" not in str(error.value)
+    phone["impact"]["speed"] = 0.2
+    with pytest.raises(SceneError, match="time steps"):
+        simulate(read(phone))
 
 
 def test_impact_with_too_many_time_steps_is_refused_and_runs_on_a_thicker_plate() -> None:

@@ -9,7 +9,6 @@ from derivation.engine.threads import one_thread
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import contact_sequence
 from derivation.scene.dynamic.contact_sequence import ImpactHistory, expected_work
-from derivation.scene.dynamic.deflection_limit import check_deflected, limited
 from derivation.scene.dynamic.mode_convergence import unchecked
 from derivation.scene.dynamic.mode_count import MODES, branching, count_of
 from derivation.scene.dynamic.reach import OutOfReachError, Reach
@@ -77,7 +76,7 @@ def run_with(
         while fewer > 1 and expected_work(problem_of(law, fewer, tolerance), n, coarse) > work:
             fewer //= 2
         return dynamic_impact_of(law, unchecked(coarse, problem, fewer))
-    enough = limited(law, problem, reach.enough(law, problem) if reach else None)
+    enough = reach.enough(law, problem) if reach else None
     watch = reach.watch(law, problem.a) if reach else None
     try:
         history = contact_sequence.impact_history(problem, n, tolerance, work, enough, watch)
@@ -103,7 +102,6 @@ def with_few_modes(law: ContactLaw, part: float, work: float = WORK) -> DynamicI
     count = count_of(lowest)
     count = min(max(min(count, FEWEST), round(part * count)), MODES)
     with one_thread(), np.errstate(all="ignore"):
-        check_deflected(lowest, time_tolerance(LOOSE))
         check_long(lowest, time_tolerance(LOOSE))
         return run_with(lowest, count, Budget(min(work, WORK)), time_tolerance(LOOSE), FEWER)
 

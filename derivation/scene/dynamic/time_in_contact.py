@@ -6,17 +6,20 @@ the spring changes its sign.
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
 from derivation.scene import scales
+from derivation.scene.contact_law.corrections import doubling_deflection
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import contact_sequence
-from derivation.scene.dynamic.contact_errors import HEAVY
+from derivation.scene.dynamic.contact_errors import HEAVY, rounded_down
 from derivation.scene.dynamic.modal import Modes, plate_of
 from derivation.scene.dynamic.mode_count import affordable, branching, count_of
 from derivation.scene.dynamic.next_element import PHASE
 from derivation.scene.dynamic.problem import DynamicProblem
+from derivation.scene.dynamic.stretching_error import FORCE, USABLE
 from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.errors import SceneError
 from generated.arrays import Double as Array
@@ -28,6 +31,9 @@ FEWER = 2
 """Difference in the number of nodes between a run and the coarser one that checks it."""
 IN_CONTACT = 0.7
 """Least fraction of half the period of a heavy sphere in contact; 0.77 in random scenes."""
+SPRING, DEFLECTED = 5.0, 0.9
+"""Sphere mass over mass of the first mode from which the plate deflects about as a spring, and the
+smallest ratio of its deflection to that of the spring: 0.92 to 0.98 in 22 random impacts."""
 STOPPED = 64
 """Largest number of modes from which the least time in contact is estimated."""
 TIMES = 801
@@ -92,16 +98,18 @@ def check_long(law: ContactLaw, tolerance: float) -> None:
     """Reject a sphere that stays on the plate for more time steps than are allowed.
 
     The fastest mode limits the time step. The contacts of a heavy sphere last about half a period;
-    of any other the least time in contact counts.
+    of any other the least time in contact counts. A heavy sphere that deflects the plate beyond the
+    linear model is rejected too.
     """
     model = law.model
     if model.inertia.modes or model.inertia.infinite_plate:
         return
-    ratio, swing = heaviness(law)
+    check_deflected(law, tolerance)
+    ratio, swing = _heaviness(law)
     if ratio < HEAVY:
         _check_time_in_contact(law, tolerance)
         return
-    steps, most = least_steps(law, 2 * affordable(law), tolerance, IN_CONTACT * swing)
+    steps, most = _steps(law, 2 * affordable(law), tolerance, IN_CONTACT * swing)
     if steps > most:
         raise SceneError(
             f"effects.inertia: the sphere is {ratio:.3g} times as heavy as the first mode of the "
@@ -111,7 +119,65 @@ def check_long(law: ContactLaw, tolerance: float) -> None:
         )
 
 
-def heaviness(law: ContactLaw) -> tuple[float, float]:
+def check_deflected(law: ContactLaw, tolerance: float) -> None:
+    """Reject a heavy sphere that deflects the plate so far that stretching doubles its stiffness.
+
+    Up to a hundred contacts would be simulated, on a plate that is far too soft.
+
+    Parameters
+    ----------
+    tolerance
+        Tolerance of the time elements [1], on which it depends whether a slower sphere can be
+        simulated.
+    """
+    model = law.model
+    ratio, swing = _heaviness(law)
+    free = model.inertia.modes or model.inertia.infinite_plate
+    deflection = DEFLECTED * model.v0 * swing / math.pi
+    limit = doubling_deflection(model)
+    if free or ratio <= SPRING or deflection < limit:
+        return
+    thicknesses = deflection / (2.0 * float(model.h))
+    raise SceneError(
+        f"effects.inertia: expected a deflection of less than {limit:.2g} m, at which stretching, "
+        "which the model neglects, doubles the stiffness of the plate, got at least about "
+        f"{deflection:.2g} m ({thicknesses:.2g} thicknesses) under a sphere {ratio:.3g} times as "
+        "heavy as its first mode; use a thicker or smaller plate"
+        f"{_slower(law, tolerance, limit, swing)}, or set inertia.modes to simulate a plate that "
+        "does not stretch"
+    )
+
+
+def _slower(law: ContactLaw, tolerance: float, limit: float, swing: float) -> str:
+    """Return a lighter or slower sphere as a remedy, with a speed if one is low enough.
+
+    Parameters
+    ----------
+    limit
+        Deflection [m] at which stretching doubles the stiffness of the plate.
+    swing
+        Half the period [s] of the sphere on the plate.
+    """
+    sag = law.model.gravity * (swing / math.pi) ** 2
+
+    def speed_for(deflection: float) -> float:
+        """Return the speed [m/s] for a largest deflection [m]; 0 if the weight alone exceeds it."""
+        square = deflection * (deflection - 2.0 * DEFLECTED * sag)
+        return math.sqrt(max(0.0, square)) * math.pi / (DEFLECTED * swing)
+
+    speed = rounded_down(speed_for(limit))
+    low = rounded_down(speed_for(limit * math.sqrt(USABLE / FORCE)))  # of later contacts
+    if speed:
+        slow = replace(law, model=replace(law.model, v0=speed))
+        steps, most = _steps(slow, 2 * affordable(slow), tolerance, IN_CONTACT * swing)
+        speed = speed if steps <= most else 0.0
+    if not speed:
+        return " or a lighter sphere"
+    usable = f" (about {low:.2g} m/s for usable results)" if low else ""
+    return f", a lighter sphere or an impact.speed of at most {speed:.2g} m/s{usable}"
+
+
+def _heaviness(law: ContactLaw) -> tuple[float, float]:
     """Return sphere mass over mass of the first mode [1], and half its period on the plate [s]."""
     modes = plate_of(law, count_of(law)).modes
     return law.model.m * float(modes.inverse_modal_mass[0]), half_period(law.model.m, modes)
@@ -123,7 +189,7 @@ def _check_time_in_contact(law: ContactLaw, tolerance: float) -> None:
         law = branching(law, "A0")
     count = affordable(law)
     least = time_in_contact(law, plate_of(law, min(count, STOPPED)).modes)
-    steps, most = least_steps(law, count, tolerance, least, FEWER)
+    steps, most = _steps(law, count, tolerance, least, FEWER)
     if steps > most:
         raise SceneError(
             f"effects.inertia: expected an impact of at most {most} time steps, got one with an "
@@ -133,7 +199,7 @@ def _check_time_in_contact(law: ContactLaw, tolerance: float) -> None:
         )
 
 
-def least_steps(
+def _steps(
     law: ContactLaw, count: int, tolerance: float, time: float, fewer: int = 0
 ) -> tuple[float, int]:
     """Return the least number of time elements during a time [s] in contact, and their limit.

@@ -16,7 +16,6 @@ from derivation.engine.threads import one_thread
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import contact_sequence
 from derivation.scene.dynamic.contact_sequence import ContactRun, ImpactHistory
-from derivation.scene.dynamic.deflection_limit import check_deflected, limited
 from derivation.scene.dynamic.first_contact import jump_since
 from derivation.scene.dynamic.infinite_plate import edge_heard, widened, wider
 from derivation.scene.dynamic.integration_error import error_after
@@ -32,7 +31,7 @@ from derivation.scene.dynamic.reach import OutOfReachError, Reach
 from derivation.scene.dynamic.refinement import TOLERANCE_FRACTION, Refinement
 from derivation.scene.dynamic.results import dynamic_impact_of
 from derivation.scene.dynamic.runs import LOOSE, WORK, Budget, time_tolerance
-from derivation.scene.dynamic.time_in_contact import FEWER, check_long, nodes_for
+from derivation.scene.dynamic.time_in_contact import FEWER, check_deflected, check_long, nodes_for
 from derivation.scene.dynamic.wave_motion import DynamicImpact
 from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.scene import OUTPUTS
@@ -76,7 +75,6 @@ def impact(
     """
     if math.isfinite(need):
         check_resolving(law)
-    check_deflected(law, time_tolerance(goal))
     check_long(law, time_tolerance(goal))
     budget, reach, first = Budget(WORK), Reach(law, outputs, need), law.model.b
     rough: DynamicImpact | None = None
@@ -138,8 +136,7 @@ def _branched(
     n = nodes_for(problem) - FEWER
     watch = Reach(lowest, outputs, room).watch(lowest, problem.a)
     try:
-        enough = limited(lowest, problem, beyond)
-        history = contact_sequence.impact_history(problem, n, close, enough=enough, watch=watch)
+        history = contact_sequence.impact_history(problem, n, close, enough=beyond, watch=watch)
     except OutOfReachError:
         return every, None
     budget.left -= history.work

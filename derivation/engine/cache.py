@@ -10,6 +10,7 @@ import functools
 import hashlib
 import json
 import os
+import time
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import fields, is_dataclass
 from pathlib import Path
@@ -19,10 +20,12 @@ import sympy as sp
 from sympy.codegen.cfunctions import expm1, log1p
 from sympy.core.function import Application, AppliedUndef
 
-from derivation.engine.files import content_hash, read_file, sources, write_file
+from derivation.engine.files import PACKAGE, content_hash, read_file, sources, write_file
 
 Value = TypeVar("Value")
 
+BEGIN = time.time()
+"""Time at which this process began to import the package."""
 LARGEST = 2**26
 """Largest size in bytes of a cache file."""
 CONSTANTS: dict[str, sp.Basic] = {
@@ -41,7 +44,8 @@ def cached(
 ) -> Value:
     """Return the result of a function, cached until one of its sources changes.
 
-    A cache that cannot be read or written is ignored.
+    A cache that cannot be read or written is ignored. So is the whole cache if a source of this
+    package was edited after its import: the result is that of the code before.
 
     Parameters
     ----------
@@ -61,9 +65,10 @@ def cached(
     TypeError
         If the result contains something that cannot be cached.
     """
-    key = f"{name}-{content_hash(sources(*source_names))[:32]}"
+    files = tuple(sources(*source_names))
+    key = f"{name}-{content_hash(files)[:32]}"
     folder, known = cache_folder(), {kind.__name__: kind for kind in kinds}
-    path = None if folder is None else folder / f"{key}.json"
+    path = None if folder is None or any(map(_is_edited, files)) else folder / f"{key}.json"
     if path is not None:
         with contextlib.suppress(Exception):  # any exception that a damaged file raises
             kept: Value = _deserialised(key, read_file(path, LARGEST), known)
@@ -76,6 +81,11 @@ def cached(
     # ones, the result is read from what was written.
     value: Value = _deserialised(key, content, known)
     return value
+
+
+def _is_edited(source: Path) -> bool:
+    """Return whether a source of this package was edited since this process began."""
+    return source.is_relative_to(PACKAGE) and source.stat().st_mtime > BEGIN
 
 
 def in_file(

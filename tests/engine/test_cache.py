@@ -55,6 +55,18 @@ def test_cached_value_is_computed_once(folder: Path) -> None:
     json.loads(path.read_bytes().partition(b"\n")[2])
 
 
+def test_result_of_sources_that_were_edited_since_their_import_is_not_kept(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is that of the code before, and must not be found under the hash of the new code."""
+    source = Path(cache.__file__)
+    monkeypatch.setattr(cache, "BEGIN", source.stat().st_mtime - 1.0)
+    compute, calls = counting(VALUE)
+    assert cached("x", (source,), compute) == cached("x", (source,), compute) == VALUE
+    assert len(calls) == 2
+    assert not list(folder.iterdir())
+
+
 def test_results_of_a_function_are_computed_once_for_each_argument(folder: Path) -> None:
     calls = list[int]()
 

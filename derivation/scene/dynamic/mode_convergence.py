@@ -35,7 +35,7 @@ FIRST = 4000.0
 error then decreased by factors of up to 2300, with a single contact by up to 170."""
 SHORT = 4.0
 """Largest wave number times half the thickness from which the contact time converges regularly."""
-RIPPLE_RATIO = {"A0": 22.0, "all": 6.5}
+RIPPLE_RATIO = {"A0": 22.5, "all": 6.5}
 """Largest expected factors by which twice as many modes reduce the ripple of the force: at most
 22.1 and 6.2 between runs of 13 random impacts, often below 2 with all branches."""
 RIPPLE, DECAY = 1.25, 2.0

@@ -36,7 +36,8 @@ VARIATION = 2.0
 """Total variation of a force that rises and falls once, over its peak."""
 TURNING = 27.0
 """Bound on the response to the rate of such a force, over its peak, times omega T: factor 2 from an
-oscillator, 4 from the variation of the rate, 3.4 from the largest rate of Hertz's contact."""
+oscillator, 4 from the variation of the rate, 2.9 from the largest rate of Hertz's contact, and a
+margin of 16 %."""
 
 
 class Damping(Effect):

@@ -139,7 +139,7 @@ def test_divergence_follows_from_the_terms() -> None:
     assert divergence.tail(term).kind == divergence.CONVERGENT
 
 
-def calmed(terms: Sequence[mp.mpf]) -> mp.mpf:
+def averaged_sum(terms: Sequence[mp.mpf]) -> mp.mpf:
     """Return the sum of a slowly oscillating series by three running means of partial sums."""
     sums = [mp.mpf(0)]
     for term in terms:
@@ -162,7 +162,7 @@ def test_sum_identity_with_the_sonine_integral(ratio: str) -> None:
         terms = [(mp.sin(r * j) - r * j * mp.cos(r * j)) / (j**4 * J**2) for j, J in zeros(800)]
         side = lateral_integral(lambda y: (r * y * mp.cosh(r * y) - mp.sinh(r * y)) / y**3)
         expected = mp.pi * r**2 / 8 - side / mp.pi
-        assert abs(calmed(terms) - expected) < mp.mpf("1e-8")
+        assert abs(averaged_sum(terms) - expected) < mp.mpf("1e-8")
 
 
 def test_identity_holds_in_interval_arithmetic() -> None:
@@ -199,7 +199,7 @@ def test_split_agrees_with_the_modal_sum(
             / (j**4 * J**2)
             for j, J in zeros(800)
         ]
-        assert abs(calmed(terms) - 1 - split_of(formulas, r, e)) < mp.mpf("1e-7")
+        assert abs(averaged_sum(terms) - 1 - split_of(formulas, r, e)) < mp.mpf("1e-7")
 
 
 @pytest.mark.parametrize("eta_text", ETAS)

@@ -72,7 +72,7 @@ def test_every_imported_package_is_a_dependency() -> None:
             assert {name.partition(".")[0] for name in actual} <= allowed, path
 
 
-SHARED = {"Formula": "the class of a paper's formulas has this name in every paper"}
+SHARED = {"Formula": "each paper names the class of its formulas like this"}
 """Names that several classes may have, with the reason."""
 
 

@@ -177,7 +177,7 @@ def test_invalid_names_are_rejected_before_the_computation(
 
 @pytest.mark.parametrize("key", OF_MATERIAL)
 def test_a_constant_of_one_material_is_not_used_for_all(key: str) -> None:
-    """The density of glass would make steel light; if it varies too, it is meant."""
+    """Steel with the density of glass is rejected as a mistake, unless the density varies too."""
     table, name = key.split(".")
     body, other = ("sphere", "plate") if table == "sphere" else ("plate", "sphere")
     value = {"yield_stress": 5e9, "retardation_time": 1e-6, "restitution": 0.9}.get(name, 0.5)

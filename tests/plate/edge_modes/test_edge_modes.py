@@ -286,7 +286,7 @@ def test_modes_of_thin_plates_agree_with_plate_theory(eta: float) -> None:
                 value = float(getattr(exact, name))
                 assert getattr(actual, name)[n - 1] == pytest.approx(
                     value,
-                    rel=1e-14 + 0.1 * eta,  # the compliance of the clamp
+                    rel=1e-14 + 0.1 * eta,  # second term: compliance of the clamp
                 )
         np.testing.assert_allclose(actual.k2, actual.k, rtol=1e-15)
         np.testing.assert_allclose(actual.residue, 0.5, rtol=1e-15)

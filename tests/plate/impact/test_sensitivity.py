@@ -262,7 +262,7 @@ def test_sensitivities_domain_and_types() -> None:
         assert np.isnan(got).all()
     assert np.isnan(impact_sensitivities(*SCENE[:2], 1e6, *SCENE[3:])).all()
     assert np.isnan(impact_sensitivities(*SCENE[:5], -0.7 * MU, MU)).all()
-    wide = (1e-4, 0.03, 50.0, *SCENE[3:])  # the contact would be wider than the sphere
+    wide = (1e-4, 0.03, 50.0, *SCENE[3:])  # the contact is wider than the sphere
     assert np.isnan(impact.impact(*wide).contact_time)
     assert np.isnan(impact_sensitivities(*wide)).all()
     single = impact_sensitivities(*(np.float32(x) for x in SCENE))

@@ -65,7 +65,7 @@ def test_bounds_hold_and_are_positive(eta: float) -> None:
         # The Hertz radius of the solution at contact radius a is slightly smaller than a.
         case = pressure_balls.case(a, 1, 1 / eta)
         state = pressure_balls.solve(case)
-        ratio = float(0.75 * state.force) ** (1 / 3)  # of Hertz's radius of the force to a
+        ratio = float(0.75 * state.force) ** (1 / 3)  # Hertz's radius of the force over a
         depth = float(state.depth) / ratio**2  # delta R/a_H^2
         hertz = a * ratio
         slope = 2 * ratio / float(state.stiffness)

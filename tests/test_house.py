@@ -17,7 +17,7 @@ HAND_WRITTEN = sorted(
 )
 
 
-def test_layers(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_modules_import_only_lower_layers(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(ROOT)
     assert lint_imports(config_filename=str(ROOT / "pyproject.toml"), no_cache=True) == 0
 

@@ -170,7 +170,7 @@ def test_missing_record_is_reported(tmp_path: Path) -> None:
         compare(path)
 
 
-def test_command(
+def test_command_compares_cases_and_fails_for_a_large_difference(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = tmp_path / "elastodynamics.json"

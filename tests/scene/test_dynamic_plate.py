@@ -83,7 +83,7 @@ def test_disabled_small_static_part_keeps_inertia(part: str) -> None:
         assert abs(other / one - 1.0) <= size + whole.accuracy.bound + without.accuracy.bound
 
 
-def test_results_as_data(result: Any) -> None:
+def test_json_and_history_are_consistent(result: Any) -> None:
     data = json.loads(json.dumps(result.to_json()))["dynamics"]
     balance = data["energy_balance"]
     assert abs(balance["residual"]) <= 1e-11

@@ -137,7 +137,7 @@ def test_several_problems_are_listed_together(tmp_path: Path) -> None:
         assert sum(line.startswith(f"  - {key}: ") for line in lines) == 1
 
 
-def test_file_that_cannot_be_decoded(tmp_path: Path) -> None:
+def test_file_that_cannot_be_decoded_gives_a_message(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match="No such file"):
         load(tmp_path / "absent.toml")
     with pytest.raises(SceneError, match="not a file"):
@@ -147,7 +147,7 @@ def test_file_that_cannot_be_decoded(tmp_path: Path) -> None:
         load(tmp_path / "bytes.toml")
 
 
-def test_unreadable_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_unreadable_file_gives_a_message(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "scene.toml"
     path.write_text(GOOD)
 

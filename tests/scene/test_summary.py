@@ -104,7 +104,7 @@ def test_value_with_a_prefix_keeps_its_digits(value: float, digits: int) -> None
         (math.nan, "1", 2, ("unknown", "")),
     ],
 )
-def test_smallest_and_largest_values(
+def test_values_have_a_prefix_an_exponent_or_are_unknown(
     value: float, unit: str, digits: int, shown: tuple[str, str]
 ) -> None:
     assert prefixed(value, unit, digits) == shown

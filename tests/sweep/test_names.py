@@ -192,7 +192,7 @@ def test_a_constant_of_one_material_is_not_used_for_all(key: str) -> None:
     assert pc.sweep(given, {f"{body}.material": alone}, rtol=0.1).sizes == {f"{body}.material": 1}
 
 
-def test_texts_of_names(tmp_path: Path, capsys: Captured) -> None:
+def test_quoted_names_may_contain_commas_and_equals_signs(tmp_path: Path, capsys: Captured) -> None:
     """A comma belongs to a name in double quotes; an equals sign may be part of a name."""
     made = plan.grid(['plate.material="float glass, 6 mm" , steel,"a ""b"" c",x = y'])
     assert made.axes == {"plate.material": ("float glass, 6 mm", "steel", 'a "b" c', "x = y")}

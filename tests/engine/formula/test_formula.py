@@ -16,7 +16,7 @@ KNOWN = {x.symbol: unit(x.unit) for x in ARGUMENTS}
 x = sp.Symbol("x", positive=True)
 
 
-def test_dimension_of_consistent_expressions() -> None:
+def test_dimension_follows_from_those_of_the_symbols() -> None:
     assert dimension(lam + 2 * mu, KNOWN) == STRESS
     assert dimension(sp.sqrt(a * h), KNOWN) == LENGTH
     assert dimension(a * sp.sin(a * phi), KNOWN) == LENGTH

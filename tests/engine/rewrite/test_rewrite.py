@@ -300,7 +300,9 @@ def run(formula: sp.Expr, at: dict[sp.Symbol, float]) -> float:
 
 
 @pytest.mark.parametrize(("formula", "part"), QUOTIENTS)
-def test_quotients_of_several_variables(formula: sp.Expr, part: str) -> None:
+def test_quotients_of_several_variables_are_rewritten_and_accurate(
+    formula: sp.Expr, part: str
+) -> None:
     """The printed form agrees with the formula in interval arithmetic."""
     symbols = sorted(formula.free_symbols, key=str)
     _, value = automatic(formula, blocks(), SCALES)

@@ -338,7 +338,7 @@ def test_bounds_hold_with_plate_inertia(ratio: float) -> None:
     assert tight.dent > 0.0
 
 
-def test_static_contact_on_loading() -> None:
+def test_static_plastic_contact_is_consistent_on_loading() -> None:
     scene = read(drop())
     [small] = indent(scene, force=1.0)
     [elastic] = indent(read(drop({"plasticity": False})), force=1.0)

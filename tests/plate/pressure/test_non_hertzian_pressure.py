@@ -170,7 +170,7 @@ def test_kernel_follows_from_the_slope_of_the_law() -> None:
 # --- limits
 
 
-def test_hertz_limit() -> None:
+def test_small_contacts_agree_with_hertz() -> None:
     for v in (1.0, 30.0):
         got = contact(plate(1.0, v), 1e-5, R, E)
         assert abs(got.centre_pressure / got.mean_pressure - 1.5) < 1e-14

@@ -174,7 +174,7 @@ def test_steps_are_floats_or_integers() -> None:
     assert whole.moved(point, "n", -3).values["n"] == 2.0
 
 
-def test_durations() -> None:
+def test_durations_are_read_in_seconds() -> None:
     assert [seconds_of(text) for text in ("30s", "5m", "1h")] == [30, 300, 3600]
     for text in ("", "5", "0s", "-5s", "1.5h", "5 m", "5d", "m", "1h30m", "99999999s", "\uff15s"):
         with pytest.raises(ValueError, match="30s, 5m or 1h"):
@@ -209,7 +209,9 @@ def test_case_with_other_arguments_is_rejected(fast: Sequence[Target], tmp_path:
         SearchRecord(path, fast, {}, {})
 
 
-def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_command_lists_the_chosen_functions(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     path, data = tmp_path / "cases.toml", tmp_path / "found.json"
     chosen = [
         "--function",

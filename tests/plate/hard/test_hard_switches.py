@@ -34,7 +34,7 @@ MAY_LACK_CASES: Mapping[str, tuple[int, str]] = {
     "contact_domain.plates_of_lengths": (2, GUARD),
     "contact_points.pieces": (3, SIZES),
     "contact_series._beyond": (1, GUARD),
-    "contact_series.correction": (1, "hard cases of several plates have one side only"),
+    "contact_series.correction": (1, "only the code for a single sphere has cases on both sides"),
     "edge_modes._below_cutoff": (3, LOOP),
     "edge_modes._solved": (3, LOOP),
     "edge_modes._within": (2, GUARD),

@@ -21,32 +21,32 @@ if TYPE_CHECKING:  # these modules import the generated package, which may be mi
     from derivation.engine.measure.case import HardCase
     from derivation.engine.measure.suite import Known, Suite
 
-# Compiled modules are kept, even where the environment forbids it: the tests start hundreds of
-# processes, and each would compile again what it imports.
+# Write compiled modules, even if the environment disables this: the tests start hundreds of
+# processes, and each would compile its imports again.
 sys.dont_write_bytecode = False
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
-# A shell lets what it starts in the background ignore interrupts. Commands that tests interrupt
-# would inherit that.
+# Processes that a shell starts in the background ignore Ctrl-C. Commands that tests interrupt would
+# inherit this.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
-# Libraries that are loaded later, and processes, multiply matrices in one thread. The threads of
-# two test processes on two cores would wait for one another, which takes several times as long.
+# Libraries that are loaded later, and processes, multiply matrices in one thread. Otherwise the
+# threads of two test processes on two cores wait for each other, which takes several times as long.
 os.environ.update(dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1"))
 
-# Expressions of SymPy are many small objects that stay. To search them for garbage at the usual
-# threshold of 700 takes a sixth of the time of tests with formulas.
+# SymPy creates many small objects that are not deleted. With the default threshold of 700, garbage
+# collection takes a sixth of the time of tests with formulas.
 gc.set_threshold(50_000, 20, 20)
 
-# The same draws in every run, however slow; `pytest --hypothesis-profile default` draws others.
+# Use the same examples in every run; `pytest --hypothesis-profile default` uses random ones.
 settings.register_profile("same", derandomize=True, deadline=None, database=None)
 settings.load_profile("same")
 
 
 @pytest.fixture(scope="session", autouse=True)
 def _one_thread() -> Iterator[None]:
-    """Multiply matrices in one thread also in the libraries that are loaded already."""
+    """Multiply matrices in one thread also in libraries that are already loaded."""
     with one_thread():
         yield
 

@@ -196,12 +196,12 @@ def by_inversion(name: str) -> Check:
         numbers = drawn({*gammas, *odd}, name, 1)[0]
         small = mp.mpf(2) ** -30
         own = {x: evaluator(chain()[x].expression)(numbers) for x in family}
-        if formal:  # of x = P^(1/3), the indentation divided by gamma_2 x^3
+        if formal:  # powers of x = P^(1/3); the indentation is divided by gamma_2 x^3
             depth = mp.fsum(numbers[g] * small ** (2 * i) for i, g in enumerate(gammas))
             root = mp.cbrt(depth) * small
             powers = {x: root ** (2 * i + 3) / small**3 for i, x in enumerate(family)}
             expected, rest = mp.mpf(1), small ** (2 * len(family))
-        else:  # of A
+        else:  # powers of A
             F = mp.fsum(numbers[c] * small ** int(c[2:]) for c in odd)
             eps = small * mp.sqrt(1 + F)
             powers = {x: eps ** int(x[2:]) for x in family}

@@ -50,7 +50,7 @@ class CaseCheck(NamedTuple):
     expected: np.ndarray
     allowed: np.ndarray
 
-    def holds(self, kernels: Mapping[str, Kernel]) -> bool:
+    def accepts(self, kernels: Mapping[str, Kernel]) -> bool:
         """Return whether values, type and shape of the results are correct, without warnings."""
         actual, problem = hard._results(
             self.case, kernels[self.case.kernel], len(self.expected), self.references
@@ -65,11 +65,11 @@ class CaseCheck(NamedTuple):
 
 
 class Domain(NamedTuple):
-    """A function at its example and outside its domain, for single points and an array of them."""
+    """A function has a value at its example and NaN outside its domain, alone and in an array."""
 
     name: str
 
-    def holds(self, kernels: Mapping[str, Kernel]) -> bool:
+    def accepts(self, kernels: Mapping[str, Kernel]) -> bool:
         given, call = domain_points(self.name), kernels[self.name].call
         more = {"modes": 5} if ROWS[self.name].get("modes") else {}
         with np.errstate(all="ignore"):
@@ -96,7 +96,7 @@ class Layouts(NamedTuple):
 
     name: str = "indentation"
 
-    def holds(self, kernels: Mapping[str, Kernel]) -> bool:
+    def accepts(self, kernels: Mapping[str, Kernel]) -> bool:
         call = kernels[self.name].call
         few, many = np.array([0.05, 0.02, 0.2]), np.resize([0.05, 0.3, 0.02, 0.1], 1200)
         a = np.resize(np.geomspace(1e-3, 0.25, 101), (700, 3))
@@ -213,7 +213,7 @@ def undetected(name: str, may_pass: Mapping[str, int]) -> dict[str, list[str]]:
     pairs = list(zip(checks, executed, strict=True))
 
     def passes(mutant: CodeMutant, most: int | None = None) -> bool:
-        # A check that does not run the changed line runs as before.
+        # A check that does not run a changed line gives the same result as before.
         every = not always.isdisjoint(mutant.lines)
         able = [i for i, (_, run) in enumerate(pairs) if every or not run.isdisjoint(mutant.lines)]
         detecting = _detecting_check(name, mutant.tree, [pairs[i][0] for i in able[:most]])
@@ -240,7 +240,7 @@ def undetected(name: str, may_pass: Mapping[str, int]) -> dict[str, list[str]]:
 def _executed_lines(name: str, checks: Sequence[Check]) -> tuple[set[int], list[set[int]]]:
     """Return the lines of a module that run when it is loaded, and those that each check runs.
 
-    All checks must hold.
+    All checks must accept the module.
     """
     lines, executed = set[int](), list[set[int]]()
 
@@ -257,7 +257,7 @@ def _executed_lines(name: str, checks: Sequence[Check]) -> tuple[set[int], list[
             always = {*lines}
             for check in checks:
                 lines.clear()
-                assert check.holds(kernels)
+                assert check.accepts(kernels)
                 executed.append({*lines})
     finally:
         sys.settrace(before)
@@ -268,13 +268,13 @@ def _detecting_check(name: str, tree: ast.Module, checks: Sequence[Check]) -> in
     """Return the index of the first check that fails; 0 if the module cannot be loaded."""
     try:
         with replaced(name, tree) as kernels:
-            return next((i for i, check in enumerate(checks) if not _holds(check, kernels)), None)
+            return next((i for i, check in enumerate(checks) if not _accepts(check, kernels)), None)
     except Exception:
         return 0
 
 
-def _holds(check: Check, kernels: Mapping[str, Kernel]) -> bool:
+def _accepts(check: Check, kernels: Mapping[str, Kernel]) -> bool:
     try:
-        return check.holds(kernels)
+        return check.accepts(kernels)
     except Exception:  # any exception counts as detected
         return False

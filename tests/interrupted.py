@@ -10,9 +10,9 @@ from derivation.engine.files import ROOT
 
 
 def interrupted(
-    program: str, argument: object, said: str, environment: Mapping[str, str] | None = None
+    program: str, argument: object, line: str, environment: Mapping[str, str] | None = None
 ) -> tuple[str, str]:
-    """Run a program, interrupt it when it has said a word, and return what it wrote.
+    """Run a program, interrupt it when it has printed a line, and return what it wrote.
 
     The program must end with status 2 and a message, and without a traceback.
     """
@@ -22,7 +22,7 @@ def interrupted(
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
     )  # fmt: skip
     assert run.stdout is not None
-    assert run.stdout.readline() == f"{said}\n"
+    assert run.stdout.readline() == f"{line}\n"
     run.send_signal(signal.SIGINT)
     shown, message = run.communicate(timeout=60)
     assert run.returncode == 2, message

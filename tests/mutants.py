@@ -77,7 +77,7 @@ Code = ast.expr | ast.AugAssign
 
 
 class CodeMutant(NamedTuple):
-    """The name of the changed function or constant, the change, its lines, and the whole module."""
+    """Name of the changed function or constant, the change, its lines, and the changed module."""
 
     home: str
     change: str
@@ -126,7 +126,7 @@ class _Position(NamedTuple):
     parent: ast.AST
     exponent: bool
     lines: range
-    """Lines of the innermost statement; of a compound one without the statements in it."""
+    """Lines of the innermost statement; those before its body if it is compound."""
 
 
 SKIPPED = ("shape", "axis", "dtype", "reshape", "broadcast_to", "arange")
@@ -171,7 +171,7 @@ def _formulas(statement: ast.stmt, skipped: Sequence[str]) -> Iterator[_Position
 
 
 def _own_lines(statement: ast.stmt) -> range:
-    """Return the lines of a statement, without the first statement in it and all further ones."""
+    """Return the lines of a statement; those before its body if it is compound."""
     body = getattr(statement, "body", [])
     end = statement.end_lineno or statement.lineno
     return range(statement.lineno, max(statement.lineno, body[0].lineno - 1 if body else end) + 1)

@@ -40,7 +40,7 @@ ANYWHERE: Allowed = {
 class Expected(Protocol):
     """A test of a module."""
 
-    def holds(self, module: ModuleType) -> bool: ...
+    def accepts(self, module: ModuleType) -> bool: ...
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class ExpectedResult:
     tolerance: float = TOLERANCE
     least: float = 0.0
 
-    def holds(self, module: ModuleType) -> bool:
+    def accepts(self, module: ModuleType) -> bool:
         actual = np.asarray(self.call(module), dtype=float)
         return close(actual, np.asarray(self.expected, dtype=float), self.tolerance, self.least)
 
@@ -130,7 +130,7 @@ def passes(
                 limit = "_STEPS" if "_STEPS" in vars(module) else "STEPS"
                 assert limit in vars(module)
                 vars(module)[limit] = tests.steps
-            return all(case.holds(module) for case in cases)
+            return all(case.accepts(module) for case in cases)
         except (ArithmeticError, LookupError, TypeError, ValueError, NameError, AttributeError):
             return False
 

@@ -15,7 +15,7 @@ from proselint.registry import CheckRegistry
 from proselint.tools import LintFile
 
 CODE = re.compile(r"^```.*?^```$|^    .*?$|`[^`]*`|\$[^$\n]+\$|<!--.*?-->|\]\([^)]*\)", re.M | re.S)
-HEADING = re.compile(r"^#.*$", re.M)  # proselint takes a heading for a part of the next sentence
+HEADING = re.compile(r"^#.*$", re.M)  # proselint would join a heading and the next sentence
 SETTINGS = tomllib.loads((Path(__file__).parent.parent / "pyproject.toml").read_text())["tool"][
     "prose"
 ]
@@ -37,7 +37,7 @@ def findings(name: str, text: str) -> Iterator[str]:
         checks={
             **dict.fromkeys(SETTINGS["ignored-checks"], False),
             **DEFAULT["checks"],
-        },  # specific first
+        },  # the first matching entry applies
     )
     file = LintFile(name, HEADING.sub(lambda match: "-" * len(match[0]), text))
     for problem in file.lint(config):

@@ -1,4 +1,4 @@
-"""Formulas of positive pure numbers, to diagnose."""
+"""Formulas of positive dimensionless numbers for tests of `diagnose`."""
 
 from collections.abc import Mapping
 
@@ -12,7 +12,7 @@ from derivation.engine.formula.vocabulary import Argument, Vocabulary
 def formulas_of(
     derived: Mapping[str, sp.Expr], domains: Mapping[sp.Symbol, tuple[str, ...]]
 ) -> dict[str, Record]:
-    """Return formulas by name, with the domain of each symbol if it has another than x > 0."""
+    """Return formulas by name; `domains` has the domains of symbols that are not just positive."""
     symbols = sorted(set().union(*(one.free_symbols for one in derived.values())), key=str)
     words = Vocabulary(
         tuple(Argument(s, "1", s.name, "a number", domains.get(s, (f"{s} > 0",))) for s in symbols)

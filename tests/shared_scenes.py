@@ -47,7 +47,7 @@ def model(**changes: Any) -> Model:
 
 
 def scene(**tables: Mapping[str, Any]) -> Any:
-    """Return a similar scene with a glass sphere; keys are replaced, or removed by None."""
+    """Return a similar scene with a glass sphere; keys are replaced, or removed if None."""
     tables_used: dict[str, dict[str, Any]] = {
         "sphere": {"radius": 0.1, "mass": 3.0, "material": "glass"},
         "plate": {
@@ -84,7 +84,7 @@ def random_models(count: int) -> Iterator[Model]:
 
 
 def changed(**tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
-    """Return a valid scene with Hertz's pressure; keys are replaced, or removed by None."""
+    """Return a valid scene with Hertz's pressure; keys are replaced, or removed if None."""
     tables_used: dict[str, dict[str, Any]] = {
         "sphere": {"radius": 0.13, "mass": 72.0},
         "plate": {"radius": 1.0, "thickness": 0.2, "lame_lambda": 0.36e9, "lame_mu": 0.43e9},
@@ -110,5 +110,5 @@ def written(folder: Path, tables: Mapping[str, Mapping[str, Any]]) -> Path:
 
 
 def thick(speed: float = 1.0, size: float = 1e6) -> Any:
-    """Return a scene with a plate so large that Hertz's law of the half-space applies."""
+    """Return a scene with so large a plate that Hertz's law of the half-space applies."""
     return read(changed(plate={"radius": size, "thickness": 2 * size}, impact={"speed": speed}))

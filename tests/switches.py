@@ -34,7 +34,7 @@ class Position(NamedTuple):
 
 @dataclass
 class Sides:
-    """Smallest relative distance of a comparison's operands, for each outcome; inf for none."""
+    """Smallest relative distance of a comparison's operands by outcome; inf if there is none."""
 
     true: float = math.inf
     false: float = math.inf
@@ -76,10 +76,10 @@ class Watch:
 
 @contextmanager
 def watched(texts: Mapping[ModuleType, str]) -> Iterator[Watch]:
-    """Record the comparisons of numbers in functions of modules, given with their texts.
+    """Record the comparisons of numbers in functions of modules.
 
-    Arguments of `inside`, conditions that raise an error or end a loop, and operators like ``in``
-    are not recorded.
+    `texts` has the sources of the modules. Arguments of `inside`, conditions that raise an error or
+    end a loop, and operators like ``in`` are not recorded.
     """
     watch, actual = Watch(), {}
     with ExitStack() as stack:

@@ -17,7 +17,7 @@ HAND_WRITTEN = sorted(
 )
 
 
-def test_layers(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_modules_import_only_lower_layers(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(ROOT)
     assert lint_imports(config_filename=str(ROOT / "pyproject.toml"), no_cache=True) == 0
 
@@ -72,7 +72,7 @@ def test_every_imported_package_is_a_dependency() -> None:
             assert {name.partition(".")[0] for name in actual} <= allowed, path
 
 
-SHARED = {"Formula": "the class of a paper's formulas has this name in every paper"}
+SHARED = {"Formula": "each paper names the class of its formulas like this"}
 """Names that several classes may have, with the reason."""
 
 

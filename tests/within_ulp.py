@@ -14,7 +14,7 @@ class WithinUlp(NamedTuple):
     expected: np.ndarray
     ulp: float
 
-    def holds(self, module: ModuleType) -> bool:
+    def accepts(self, module: ModuleType) -> bool:
         actual = np.asarray(self.call(module))
         if actual.shape != self.expected.shape or actual.dtype != self.expected.dtype:
             return False

@@ -115,7 +115,7 @@ def measure(progress: Progress = quiet) -> dict[str, Any]:
     progress("times", len(trials) + 1, len(trials) + 1)
     nothing = np.zeros(1)
     candidates = [Candidate(_timed(trial), nothing, 1) for trial in trials]
-    with one_thread():  # as a simulation
+    with one_thread():  # like a simulation
         timings, spread = interleaved(candidates, ROUNDS)
     return {
         "provenance": provenance(16, PACKAGE),
@@ -221,12 +221,12 @@ def by_runge_kutta(rtol: float) -> CostOutcome:
     def rate(s: float, state: Array) -> Array:
         return 2.0 * s * motion.rate(state)
 
-    def apart(s: float, state: Array) -> float:
-        return motion.pressed(state) if s > SEPARATION_START else 1.0
+    def indentation(s: float, state: Array) -> float:
+        return motion.local_indentation(state) if s > SEPARATION_START else 1.0
 
-    apart.terminal, apart.direction = True, -1  # type: ignore[attr-defined]
+    indentation.terminal, indentation.direction = True, -1  # type: ignore[attr-defined]
     solution = solve_ivp(
-        rate, (0.0, 2.0), motion.begin(), "DOP853", events=apart, rtol=rtol, atol=1e-3 * rtol,
+        rate, (0.0, 2.0), motion.begin(), "DOP853", events=indentation, rtol=rtol, atol=1e-3 * rtol,
         dense_output=True,
     )  # fmt: skip
     end = float(solution.t_events[0][0])
@@ -250,10 +250,10 @@ def by_verlet(steps: int) -> CostOutcome:
     state, dt = motion.begin(), 1.0 / steps
     half, times, forces = motion.accelerations(state), [0.0], [0.0]
     while True:
-        before = motion.pressed(state)
+        before = motion.local_indentation(state)
         velocity = state[1::2] + 0.5 * dt * half
         state[::2] += dt * velocity
-        after = motion.pressed(state)
+        after = motion.local_indentation(state)
         if after <= 0.0 and len(times) > 2:
             break
         half = motion.accelerations(state)
@@ -284,7 +284,7 @@ class _Motion:
         state[1] = 1.0
         return state
 
-    def pressed(self, state: Array) -> float:
+    def local_indentation(self, state: Array) -> float:
         """Return the local indentation: displacement of the sphere minus that of the plate."""
         return float(state[0] - np.sum(state[2::2]))
 
@@ -298,7 +298,7 @@ class _Motion:
         """Return the accelerations of the sphere and the modes."""
         problem, q = self.problem, state[2::2]
         own = -(problem.omega**2) * q
-        if self.pressed(state) <= 0.0:
+        if self.local_indentation(state) <= 0.0:
             return np.concatenate(([0.0], own))
         at, unit = self._touching(state), problem.force
         return np.concatenate(
@@ -307,13 +307,13 @@ class _Motion:
 
     def force(self, state: Array) -> float:
         """Return the contact force."""
-        if self.pressed(state) <= 0.0:
+        if self.local_indentation(state) <= 0.0:
             return 0.0
         return float(self._touching(state).force[0]) / self.problem.force
 
     def _touching(self, state: Array) -> ContactSamples:
         """Return the contact with the local indentation of a state, by Newton's method."""
-        problem, q, deep = self.problem, state[2::2], self.pressed(state)
+        problem, q, deep = self.problem, state[2::2], self.local_indentation(state)
         a = self.radius
         for _ in range(50):
             at = problem.contact.at(np.array([problem.a * a]))

@@ -155,7 +155,7 @@ def simulated(row: Mapping[str, Any]) -> dict[str, Any]:
     values["total_time"] = dynamics.inertia.total_time
     if dynamics.back_face.course is not None:
         values[STRESS] = smoothed_peak(dynamics.back_face.course, result.contact_time)
-    # Finite elements are linear: the errors by stretching do not count.
+    # Finite elements are linear: the errors by stretching are not included.
     impact = result.model, result.max_contact_radius, result.contact_time
     return {
         "branches": dynamics.law.model.inertia.branches,
@@ -168,9 +168,9 @@ def simulated(row: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def smoothed_peak(course: StressHistory, contact_time: float) -> float:
-    """Return the largest stress [Pa] of a course that is smoothed as that of finite elements is.
+    """Return the largest stress [Pa] of a time history, smoothed like that of finite elements.
 
-    The same smoothing does not count as a difference between both.
+    Otherwise the smoothing would be part of the difference.
     """
     last = float(course.times[-1])
     times = np.linspace(0.0, last, 1 + math.ceil(BEST.steps * last / contact_time))

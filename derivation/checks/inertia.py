@@ -122,8 +122,8 @@ def solve(number: int, data: Scene, position: float) -> InertiaRow | str:
     ----------
     number, data
         The scene.
-    place
-        A number in [0, 1) that determines the tolerance, see `placed`.
+    position
+        A number in [0, 1) that determines the tolerance, see `with_tolerance`.
     """
     try:
         data, rtol = with_tolerance(data, position)
@@ -134,7 +134,7 @@ def solve(number: int, data: Scene, position: float) -> InertiaRow | str:
         model = replace(selected.law.model, inertia=InertiaSettings())
         modes = _modes(used or _moving(model, rtol))
         branches = "A0" if model.retardation_time else "all"
-        # Even and odd numbers: what the last mode contributes has alternating signs.
+        # Even and odd numbers, because contributions of successive modes alternate in sign.
         twice = 2 * modes + number % 2
         many = replace(model, inertia=InertiaSettings(modes=twice, branches=branches))
         if mode_count(many) > MAX_MODES:

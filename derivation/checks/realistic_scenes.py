@@ -103,7 +103,7 @@ def _draw(generator: Random) -> Scene:
     spread = log_uniform_draw(generator)
     R = spread(1e-3, 0.1)
     sphere: dict[str, Any] = {"radius": R, "material": generator.choice(NAMED_MATERIALS)}
-    if generator.random() < 0.3:  # a rigid sphere, hollow or heavy
+    if generator.random() < 0.3:  # a rigid sphere, which may be hollow or heavy
         sphere = {"radius": R, "mass": 4.0 / 3.0 * math.pi * R**3 * spread(200.0, 1.2e4)}
     thickness = spread(5e-4, 0.2)
     plate: dict[str, Any] = {"thickness": thickness, "radius": thickness * spread(3.0, 100.0)}

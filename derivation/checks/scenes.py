@@ -198,7 +198,7 @@ def _run(scene: Scene, rtol: float | None) -> tuple[Kind, str]:
         return "rejected", str(error)
     except TimeoutError:
         raise
-    except Exception:  # any exception counts as a failure
+    except Exception:  # any exception is a failure
         return "traceback", "".join(traceback.format_exc().splitlines(keepends=True)[-3:])
     if not result.complete:
         return "incomplete", result.incomplete_note

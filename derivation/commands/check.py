@@ -42,7 +42,7 @@ class CheckGroup(Group):
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Reject former options before the arguments are parsed."""
-        names = [arg.partition("=")[0] for arg in self.own(args)]
+        names = [arg.partition("=")[0] for arg in self.own_arguments(args)]
         for name in (name for name in names if name in MOVED):
             ctx.fail(f"{name} is now a subcommand: run `platecontact check {MOVED[name]}`")
         return super().parse_args(ctx, args)

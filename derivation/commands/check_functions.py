@@ -111,8 +111,8 @@ def search(
     with search_clock("search") as progress:
         results, book = pipeline.search_worse(time, seed, function or [], out, progress, own)
     if write_json_output(lambda: as_data(results), json):
-        table(f"Search, seed {seed}", COLUMNS, [cells(k, results, book) for k in results.standings])
-        listing("Worst arguments", [arguments(k, results) for k in results.standings])
+        table(f"Search, seed {seed}", COLUMNS, [cells(k, results, book) for k in results.states])
+        listing("Worst arguments", [arguments(k, results) for k in results.states])
     if book.written:
         NOTES.say(f"new worst cases written to {book.path}")
     raise typer.Exit(

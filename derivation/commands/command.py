@@ -50,14 +50,14 @@ class Command(TyperCommand):
 class Group(TyperGroup):
     """A command with subcommands; its own options apply only without a subcommand."""
 
-    def own(self, args: list[str]) -> list[str]:
-        """Return the arguments in front of a subcommand."""
+    def own_arguments(self, args: list[str]) -> list[str]:
+        """Return the arguments before the subcommand."""
         return list(takewhile(lambda arg: arg not in self.commands, args))
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Replace former names; reject repeated options, and options that have no effect."""
-        own = with_present_names(self, ctx, self.own(args))
-        rest = args[len(self.own(args)) :]
+        own = with_present_names(self, ctx, self.own_arguments(args))
+        rest = args[len(self.own_arguments(args)) :]
         misplaced = [option for option in given_options(self, ctx, own) if not option.is_eager]
         if rest and misplaced and not ctx.resilient_parsing:
             ctx.fail(
@@ -88,7 +88,7 @@ def with_present_names(command: Any, ctx: Any, args: list[str]) -> list[str]:
 
 
 def typed_options(command: Any, ctx: Any) -> Iterator[TyperOption]:
-    """Yield the options that stand in the command line."""
+    """Yield the options as given on the command line."""
     for option in command.params:
         source = ctx.get_parameter_source(option.name)
         if isinstance(option, TyperOption) and source is not None and source.name == "COMMANDLINE":

@@ -95,7 +95,7 @@ def simulate(
     check_outputs(scene, json, plot, csv, animate)
     with progress_status("simulate"):
         result = run(load(scene), rtol=rtol)
-    # Everything is made before anything is written.
+    # All results are computed before a file is written.
     files: dict[Path, str | bytes] = {}
     if csv is not None:
         files[csv] = result.history().to_csv()

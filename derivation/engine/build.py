@@ -77,7 +77,7 @@ def build(paper: Paper, out: Path | None, timed: Timed) -> BuildResult:
 
     Returns
     -------
-    Built
+    BuildResult
         Whether all errors are within their budgets, remarks, and the files written.
 
     Raises

@@ -70,7 +70,7 @@ def write_files(contents: Mapping[Path, str | bytes]) -> tuple[Path, ...]:
                 temporaries[target].write(_bytes(content))
         for target, temporary in temporaries.items():
             temporary.path.replace(target)
-    except BaseException:  # Ctrl-C too
+    except BaseException:  # also Ctrl-C
         for temporary in temporaries.values():
             temporary.discard()
         _remove_empty(made)
@@ -152,11 +152,13 @@ def _opened(path: Path) -> int:
     """Return the descriptor of a file, or a copy of the open descriptor that a name denotes."""
     known = DESCRIPTOR.fullmatch(str(path))
     if known:
-        if not int(known[1] or 0) and sys.stdin is None:  # another file may have descriptor 0
+        if not int(known[1] or 0) and sys.stdin is None:  # descriptor 0 may belong to another file
             raise OSError(errno.EBADF, "standard input is closed")
         handle = os.dup(int(known[1] or 0))
         if os.name == "posix":
-            os.set_blocking(handle, True)  # a pipe of another program may return a part otherwise
+            os.set_blocking(
+                handle, True
+            )  # otherwise a pipe of another program may return only a part
         return handle
     if not stat.S_ISREG(path.stat().st_mode):
         raise OSError(errno.EINVAL, "a folder or a device, not a file")
@@ -236,7 +238,7 @@ def sources(*rooms: str | Path) -> Iterator[Path]:
 def files_of_paper(folder: Path) -> tuple[Path, ...]:
     """Return the files of a paper's folder and its subfolders, data included.
 
-    What the program writes there, and hidden files, are left out.
+    Files that the program writes there, and hidden files, are omitted.
     """
     written = {"generated", "reports"}
     parts = ((path, path.relative_to(folder).parts) for path in folder.rglob("*") if path.is_file())

@@ -79,7 +79,7 @@ def _is_installed(file: Path) -> bool:
 def _imported(name: str, path: Path) -> ModuleType:
     """Return the module `paper` of a folder, imported as a package of the given name."""
     for known in [known for known in sys.modules if known == name or known.startswith(f"{name}.")]:
-        del sys.modules[known]  # from another folder of this name, or from edited files
+        del sys.modules[known]  # it may be from another folder of this name, or from older files
     package = ModuleType(name)
     package.__path__ = [str(path)]
     sys.modules[name] = package

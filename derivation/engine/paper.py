@@ -40,7 +40,7 @@ class Report:
         `any_report`, which suit any paper.
     figures
         Function that returns all figures by name; those of the shown sections are written.
-    beside
+    accompanying_files
         Function from the paper's folder to the contents of other files that depend on the same
         data; they are written with the whole report.
     """

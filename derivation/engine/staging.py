@@ -69,7 +69,7 @@ class Temporary:
 
 @contextlib.contextmanager
 def locked_folder(folder: Path) -> Iterator[None]:
-    """Keep other processes that call this function for the same folder out during the block.
+    """Exclude other processes that call this function for the same folder during the block.
 
     Raises
     ------

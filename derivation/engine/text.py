@@ -17,7 +17,7 @@ def paragraph(text: str, indent: int = 2) -> str:
 
 
 def wording(text: str) -> str:
-    """Return a text with # in place of each number: alike texts have the same wording.
+    """Return a text with # in place of each number: similar texts have the same wording.
 
     Examples
     --------

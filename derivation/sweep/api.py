@@ -43,7 +43,7 @@ def sweep(
     scheduler: str | None = None,
     retry: bool = False,
 ) -> "xr.Dataset":
-    """Simulate a scene at every point of a grid or a sample; show a bar meanwhile on a terminal.
+    """Simulate a scene at every point of a grid or a sample; a terminal shows the progress.
 
     Parameters
     ----------
@@ -62,8 +62,8 @@ def sweep(
     seed
         Random seed of the sample.
     method
-        Method of the sample: "random", "latin-hypercube" or "sobol". With `sensitivity`, leave it
-        out.
+        Method of the sample: "random", "latin-hypercube" or "sobol". Do not give it with
+        `sensitivity`.
     sensitivity
         Whether to compute variance-based sensitivity indices of a sample.
     rtol

@@ -363,7 +363,7 @@ class _Sequence:
             self.engine = qmc.Sobol(self.dimensions, scramble=True, rng=seed)
         if self.engine.num_generated < start:
             self.engine.fast_forward(start - self.engine.num_generated)
-        with warnings.catch_warnings():  # the whole sequence is a power of two, its parts are not
+        with warnings.catch_warnings():  # SciPy warns that a part has no power of two of points
             warnings.simplefilter("ignore", UserWarning)
             return np.asarray(self.engine.random(stop - start))
 

@@ -141,7 +141,7 @@ def _roles(keys: Sequence[str]) -> tuple[str, str]:
 
 
 def _legend(made: "Figure", panel: "Axes", other: str) -> None:
-    """Add the legend of all panels: in the first one, or beside them if each name has a curve."""
+    """Add the legend of all panels: in the first one, or next to them if each name has a curve."""
     handles, texts = panel.get_legend_handles_labels()
     if not handles:  # maps have none
         return
@@ -182,7 +182,7 @@ def _curves(axes: "Axes", data: "xr.Dataset", keys: Sequence[str], name: str) ->
         label = _label(curve) if other else "error: bound and model" if bounded else ""
         _draw(axes, points, color, label, bool(ticks) or (bool(other) and "sample" in data.dims))
     axes.set(xlabel=x_label, ylabel=y_label)
-    if finite.any() and np.ptp(y[finite]) == 0.0:  # its error alone would fill the panel
+    if finite.any() and np.ptp(y[finite]) == 0.0:  # otherwise its error would fill the panel
         axes.set_ylim(*sorted((0.95 * y[finite][0], 1.05 * y[finite][0])))
     axes.ticklabel_format(axis="y", useOffset=False)
     _frame(axes)

@@ -298,7 +298,7 @@ def _client(scheduler: str | None, workers: int) -> Iterator[Any]:
     client = _connected(scheduler)
     if client is None:
         # The failed client is part of a reference cycle. Python would close it at any time, perhaps
-        # in a thread that is needed to start another client, which then waits without end.
+        # in a thread that is needed to start another client, which then waits forever.
         gc.collect()
         raise SceneError(
             f"scheduler: expected a Dask scheduler with a worker, got none at {scheduler}; "
@@ -314,7 +314,7 @@ def _connected(scheduler: str) -> Any:
     from distributed import Client
 
     client = None
-    with suppress(OSError, ValueError):  # an address that is none is a ValueError
+    with suppress(OSError, ValueError):  # ValueError: invalid address
         client = Client(scheduler, timeout=PATIENCE, set_as_default=False)
         client.wait_for_workers(1, timeout=PATIENCE)
         return client

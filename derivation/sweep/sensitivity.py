@@ -122,11 +122,11 @@ def sensitivities(store: Store) -> Sensitivities:
 
 
 def _errors(bound: float, outputs: tuple[str, ...]) -> Array:
-    """Return the bound on the error of each result [1]; infinite for one to which none applies.
+    """Return the bound on the error of each result [1]; infinite for a result without a bound.
 
-    The bound of the results that `accuracy.outputs` names may be that of simulations that omit what
-    the others depend on. The pressure has three times the error of all of them by omitted effects,
-    the stress on the back face that of the force.
+    The bound applies to the results that `accuracy.outputs` names: effects on which only other
+    results depend may be omitted. The bound of the pressure is three times that of all results, and
+    that of the stress on the back face is that of the force.
     """
     errors = dict.fromkeys(UNITS, np.inf) | dict.fromkeys(outputs, bound)
     if set(OUTPUTS) <= set(outputs):

@@ -186,7 +186,7 @@ class Store:
                     stream.flush()
                     os.fsync(stream.fileno())
                 temporary.replace(self.folder / name)
-            except BaseException:  # Ctrl-C too
+            except BaseException:  # also Ctrl-C
                 temporary.unlink(missing_ok=True)
                 raise
 
@@ -276,7 +276,7 @@ def open_store(study: Study, out: Path | None) -> Iterator[Store]:
 def parts_folder(out: Path) -> Path:
     """Return the folder of the batches of an output: its name with `.parts` added.
 
-    That of a link is next to the file to which it leads.
+    For a link it is next to the target of the link.
     """
     target = real(out) if out.is_symlink() else out
     return target.with_name(f"{target.name}.parts")

@@ -81,11 +81,11 @@ def write(store: Store, out: Path, progress: Progress) -> None:
     try:
         with explained(out):
             writers[out.suffix](store, temporary, progress)
-            target = real(out)  # a link stays
+            target = real(out)  # a link is kept; its target is replaced
             if temporary.is_dir():
                 _remove(target)
             temporary.replace(target)
-    except BaseException:  # Ctrl-C too
+    except BaseException:  # also Ctrl-C
         _remove(temporary)
         raise
 
@@ -176,7 +176,7 @@ def _zarr(store: Store, path: Path, progress: Progress) -> None:
         return fill
 
     _arrays(store, create, progress)
-    with warnings.catch_warnings():  # that other programs may not know it; they do without it
+    with warnings.catch_warnings():  # of metadata that are not standard, but optional
         warnings.simplefilter("ignore")
         zarr.consolidate_metadata(path)
 
@@ -208,7 +208,7 @@ def _characters(
 ) -> Fill:
     """Create an array of compressed characters, which xarray reads as texts.
 
-    HDF5 does not compress strings of any length, which would take several times as much space.
+    HDF5 does not compress strings of variable length, which would take several times the space.
     """
     import pandas as pd
 
@@ -238,7 +238,7 @@ def _arrays(store: Store, create: Callable[..., Fill], progress: Progress) -> No
             create(key, (key,), (len(values),), labels(key))((slice(None),), np.array(values))
     else:
         points = {key: create(key, dims, chunks, labels(key)) for key in plan.keys}
-    beside = {"coordinates": " ".join(points)} if points else {}  # as CF calls them
+    beside = {"coordinates": " ".join(points)} if points else {}  # by the CF conventions
     made = {name: create(name, dims, chunks, labels(name) | beside) for name in (*NUMBERS, *TEXTS)}
     for slices, start, stop in blocks(shape):
         table = store.table(start, stop)

@@ -121,7 +121,7 @@ def test_xarray_data_set_has_results_and_history_with_units(result: pc.Result) -
 
 
 def test_xarray_data_set_has_the_dent_of_a_plastic_contact(result: pc.Result) -> None:
-    """On a plate without inertia the sphere leaves when it has risen to the bottom of the dent."""
+    """On a quasi-static plate the sphere separates when it has risen to the bottom of the dent."""
     plate = VALID["plate"] | {"yield_stress": 1e6}
     still = VALID | {"plate": plate, "effects": {"inertia": False, "plasticity": True}}
     data = pc.simulate(pc.read(still)).to_xarray()

@@ -49,7 +49,7 @@ def test_reference_and_rows_have_the_same_results() -> None:
     for trial in (few, more):
         pairs = zip(trial.call().numbers, trial.reference(), strict=True)
         errors.append(max(abs(x / y - 1) for x, y in pairs))
-        assert trial.call().modes == trial.setting  # of A0 alone, although "auto" may add branches
+        assert trial.call().modes == trial.setting  # with A0 only, although "auto" may add branches
     assert 0.0 < errors[1] < errors[0] < 1e-3
 
 

@@ -47,7 +47,9 @@ def test_static_force_on_a_thick_block_is_that_of_hertz(edge: str) -> None:
 
 
 @pytest.mark.parametrize(("ratio", "nu"), [(0.02, 0.3), (0.2, 0.0), (0.3, 0.45)])
-def test_static_force_on_the_edge_of_the_paper(ratio: float, nu: float) -> None:
+def test_static_force_with_the_edge_of_the_paper_agrees_with_the_law(
+    ratio: float, nu: float
+) -> None:
     plate = Plate(0.02 / ratio, 0.02, 70e9, nu, 2700.0)
     a, R = 1e-3, 0.02
     mesh = graded_mesh(plate.radius, 0.02, 1.25 * a, Grading(contact=12, far=2.0))
@@ -64,8 +66,10 @@ def test_static_force_on_the_edge_of_the_paper(ratio: float, nu: float) -> None:
         ("clamped", kernels.clamped_back_face_stress),
     ],
 )
-def test_static_stress_on_the_back_face(edge: str, stress: Callable[..., float]) -> None:
-    """A static contact against the closed form, to the error of Hertz's pressure on a plate."""
+def test_static_stress_on_the_back_face_agrees_with_the_closed_form(
+    edge: str, stress: Callable[..., float]
+) -> None:
+    """They agree up to the error of Hertz's pressure on a plate."""
     plate, a, R = Plate(0.2, 0.01, 70e9, 0.3, 2700.0, edge), 5e-4, 0.02
     mesh = graded_mesh(plate.radius, plate.thickness, 1.5 * a, Grading(contact=12, far=2.0))
     made = System(plate, mesh)
@@ -100,7 +104,7 @@ def test_frequencies_for_the_edge_of_the_paper_are_exact(ratio: float, nu: float
     np.testing.assert_allclose(frequencies * ratio / 2, exact, rtol=2e-6)
 
 
-def test_frequencies_of_a_thin_clamped_plate() -> None:
+def test_frequencies_of_a_thin_clamped_plate_agree_with_plate_theory() -> None:
     """Frequencies are just below those of a thin plate, lambda^2 sqrt(D/(rho H))/b^2."""
     ratio, nu = 0.01, 0.3
     frequencies = System(
@@ -137,8 +141,8 @@ def test_contact_set_is_the_only_admissible_one() -> None:
         assert (active == (forces > 0.0)).all()
 
 
-def test_energy_and_impulse() -> None:
-    """The energy error falls with the time step; the impulse is the sphere's change of momentum."""
+def test_energy_and_momentum_are_conserved() -> None:
+    """Shorter steps reduce the energy error; the impulse is the sphere's change of momentum."""
     plate, losses = system(SMALL), []
     for steps in (100, 200):
         history = simulate_impact(plate, SMALL.sphere, SMALL.time / steps, 100.0 * SMALL.time)
@@ -215,7 +219,7 @@ def test_contact_wider_than_the_fine_mesh_is_rejected() -> None:
         simulate_impact(system(SMALL, reach=0.5), SMALL.sphere, SMALL.time / 100, SMALL.time)
 
 
-def test_profiles_of_paraboloid_and_sphere() -> None:
+def test_heights_of_the_profiles_of_paraboloid_and_sphere() -> None:
     r = np.array([0.0, 0.006])
     np.testing.assert_allclose(Sphere(0.01, 1.0, 1.0).profile(r), [0.0, 0.0018])
     np.testing.assert_allclose(Sphere(0.01, 1.0, 1.0, exact=True).profile(r), [0.0, 0.002])

@@ -134,8 +134,8 @@ def test_difference_is_accepted_up_to_the_stated_error() -> None:
     assert (cells(within)[-1], cells(beyond)[-1]) == ("yes", "NO")
 
 
-def test_stress_has_an_error_of_its_own() -> None:
-    """The bound is 1e-3, its own error 2e-3 and that of the elements 5e-4."""
+def test_stress_is_compared_with_its_own_error() -> None:
+    """The bound is 1e-3, the error of the stress 2e-3 and that of the elements 5e-4."""
     for stress, passes in ((1.0034, True), (1.0036, False)):
         given = row("a", 1.0)
         given["program"]["values"]["max_tensile_stress"] = stress
@@ -170,7 +170,7 @@ def test_missing_record_is_reported(tmp_path: Path) -> None:
         compare(path)
 
 
-def test_command(
+def test_command_compares_cases_and_fails_for_a_large_difference(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = tmp_path / "elastodynamics.json"

@@ -31,7 +31,7 @@ SLOW = Model(
 """A sphere that hits a thick disc very slowly."""
 
 
-def gate_of(model: Model, rtol: float) -> SelectedEffects:
+def selection_of(model: Model, rtol: float) -> SelectedEffects:
     """Return the effect selection for inertia, with all other effects included."""
     others = inertia_check.selectable_effects(model) - {"inertia", "hertz"}
     return decide(model, dict.fromkeys(others, True) | {"inertia": "auto"}, rtol)
@@ -42,33 +42,36 @@ def test_both_sides_of_the_threshold(changes: dict[str, Any]) -> None:
     """Inertia is included just below its bound, and its change of the results is within it."""
     model = replace(SLOW, **changes)
     every = inertia_check.selectable_effects(model)
-    omission_bound = gate_of(model, 1.0).error
+    omission_bound = selection_of(model, 1.0).error
     assert 0.0 < omission_bound < 3e-2
-    above, below = gate_of(model, omission_bound), gate_of(model, omission_bound * (1.0 - 1e-9))
+    above, below = (
+        selection_of(model, omission_bound),
+        selection_of(model, omission_bound * (1.0 - 1e-9)),
+    )
     assert above.law.effects == every - {"inertia"}
     assert below.law.effects == every
-    still, moving = impact(above.law), waves.impact(below.law, omission_bound / 100.0)
-    changed = [abs(x / y - 1.0) for x, y in zip(still.numbers, moving.numbers, strict=True)]
+    static, dynamic = impact(above.law), waves.impact(below.law, omission_bound / 100.0)
+    changed = [abs(x / y - 1.0) for x, y in zip(static.numbers, dynamic.numbers, strict=True)]
     assert 1e-3 * omission_bound < max(changed) <= omission_bound
 
 
 def test_weight_increases_the_effect_of_inertia() -> None:
-    """A sphere pressed into the plate by its weight loses a larger part of its energy."""
+    """A sphere that indents the plate by its weight loses a larger part of its energy."""
     heavy = replace(SLOW, v0=1e-3, gravity=9.81)
     light = replace(heavy, gravity=0.0)
-    prices = [gate_of(model, 1.0).error for model in (light, heavy)]
+    bounds = [selection_of(model, 1.0).error for model in (light, heavy)]
     every = [inertia_check.selectable_effects(model) for model in (light, heavy)]
-    still = inertia_check.quasi_static(heavy)
-    assert still is not None
-    work_ratio = weight_work_ratio(heavy, still.max_indentation)
+    static = inertia_check.quasi_static(heavy)
+    assert static is not None
+    work_ratio = weight_work_ratio(heavy, static.max_indentation)
     assert work_ratio > 1.0
-    assert prices[1] > work_ratio * prices[0]
-    lost = []
+    assert bounds[1] > work_ratio * bounds[0]
+    energy_losses = []
     for model, effects in zip((light, heavy), every, strict=True):
-        moving = waves.impact(ContactLaw(model, effects), 1e-4)
-        lost.append(1.0 - moving.restitution)
-    assert lost[1] > 2.0 * lost[0]
-    assert lost[1] <= prices[1]
+        dynamic = waves.impact(ContactLaw(model, effects), 1e-4)
+        energy_losses.append(1.0 - dynamic.restitution)
+    assert energy_losses[1] > 2.0 * energy_losses[0]
+    assert energy_losses[1] <= bounds[1]
     # The bound on the omitted branches grows with the weight too.
     result = waves.impact(ContactLaw(heavy, every[1]), 1e-3)
     a, time = result.max_contact_radius, result.contact_time
@@ -78,7 +81,7 @@ def test_weight_increases_the_effect_of_inertia() -> None:
     )
 
 
-NUMBERS, OUT = (5, 9, 17, 34, 44, 90, 111, 142), (5, 17, 34)
+NUMBERS, OMITTED = (5, 9, 17, 34, 44, 90, 111, 142), (5, 17, 34)
 
 
 @pytest.mark.parametrize("number", NUMBERS)
@@ -87,7 +90,7 @@ def test_bounds_hold_in_random_scenes(number: int) -> None:
     assert inertia_check.reason_to_skip(data) == ""
     row = inertia_check.solve(number, data, position)
     assert isinstance(row, InertiaRow)
-    assert row.included is (number not in OUT)
+    assert row.included is (number not in OMITTED)
     assert row.error <= min(row.bound, row.rtol)
     assert row.omission_change <= row.omission_bound
 
@@ -191,9 +194,9 @@ def test_scenes_are_skipped_for_stated_reasons() -> None:
     assert inertia_check.reason_to_skip(changed()) == ""
     slow = changed(impact={"speed": 1e-3, "gravity": 9.81})
     assert "weight over the initial kinetic energy above 100" in inertia_check.reason_to_skip(slow)
-    still = inertia_check.quasi_static(model_of(read(slow)))
-    assert still is not None
-    assert 2.0 * 9.81 * still.max_indentation / 1e-6 > inertia_check.MAX_WEIGHT_WORK
+    static = inertia_check.quasi_static(model_of(read(slow)))
+    assert static is not None
+    assert 2.0 * 9.81 * static.max_indentation / 1e-6 > inertia_check.MAX_WEIGHT_WORK
     # Zener's parameter is proportional to mass^(3/5); the limit 5 is between the two values.
     heavy, light = (changed(sphere={"density": rho}) for rho in (1e7, 1e3))
     assert inertia_check.reason_to_skip(heavy) == "Zener parameter above 5"

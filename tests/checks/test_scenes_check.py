@@ -128,7 +128,9 @@ def test_worker_processes_run_the_scenes() -> None:
     assert f"{max(o.seconds for o in report):.2g} s, " in cost(report)
 
 
-def test_command(monkeypatch: pytest.MonkeyPatch, capsys: Captured) -> None:
+def test_command_fails_if_a_result_is_nan(
+    monkeypatch: pytest.MonkeyPatch, capsys: Captured
+) -> None:
     monkeypatch.setattr(scenes_check, "check_scenes", lambda *_: (outcome("finished"),))
     assert main(["check", "scenes", "-n", "1", "--seed", "5"]) == 0
     assert "finished" in capsys.readouterr().out

@@ -46,7 +46,7 @@ def rows_of(path: Path) -> list[dict[str, Any]]:
 
 @pytest.fixture
 def install_j0(monkeypatch: Patch, tmp_path: Path) -> Callable[[float], Path]:
-    """Let `check` measure only J0, multiplied by a factor; return the path of the record."""
+    """Make `check` measure only J0, multiplied by a factor; return the path of the record."""
     path = tmp_path / "check.json"
     monkeypatch.setattr(plate_paper, "PAPER", dataclasses.replace(PAPER, records=tmp_path))
 

@@ -13,7 +13,7 @@ from derivation.plate.vocabulary import Formula
 CORRECT = "(2*T + sinh(2*T))/(2*(sinh(T) - T)*(sinh(T) + T))"
 
 
-def test_public_python_interface() -> None:
+def test_formula_and_diagnose_can_be_imported() -> None:
     record = formula("G")
     assert isinstance(record, Formula)
     assert record._repr_latex_().startswith("$")
@@ -22,7 +22,7 @@ def test_public_python_interface() -> None:
         formula("nonsense")
 
 
-def test_diagnose_equal_and_different(capsys: pytest.CaptureFixture[str]) -> None:
+def test_diagnose_exits_with_1_for_a_different_formula(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["diagnose", "G", "--formula", CORRECT, "--at", "T=3", "--json", "-"]) == 0
     equal = json.loads(capsys.readouterr().out)
     assert equal["verdict"] == "equal"
@@ -70,7 +70,9 @@ def test_invalid_input_gives_one_message_and_status_2(
     assert "Traceback" not in message + captured.out
 
 
-def test_generate_check_and_out(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_generate_check_compares_the_folder_given_by_out(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(["generate", "--check"]) == 0
     out = tmp_path / "plate"
     assert main(["generate", "--check", "--out", str(out)]) == 1

@@ -204,7 +204,7 @@ def test_overview_shows_three_models_and_the_fastest_methods() -> None:
     front = np.array(right.lines[-1].get_data())
     assert (np.diff(front[0]) > 0).all()
     assert (np.diff(front[1]) > 0).all()
-    for line in right.lines[:-1]:  # no method is better than the front
+    for line in right.lines[:-1]:  # no method is better than the Pareto front
         for seconds, digits in zip(*line.get_data(), strict=True):
             assert digits <= front[1][front[0] <= seconds].max(initial=-math.inf)
 

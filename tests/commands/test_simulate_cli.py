@@ -111,7 +111,7 @@ def test_plot_shows_the_computed_curves() -> None:
         (1e30, 1e-9, "x [Gm]"),
     ],
 )
-def test_scaled_labels(value: float, factor: float, label: str) -> None:
+def test_labels_have_a_unit_with_a_suitable_prefix(value: float, factor: float, label: str) -> None:
     values, scaled_label = scaled(np.array([0.0, value]), "x", "m")
     assert scaled_label == label
     assert values[1] == pytest.approx(value * factor, rel=1e-15)

@@ -238,7 +238,7 @@ def test_read_only_file_is_not_replaced(read_only: Path, capsys: Captured) -> No
     """This holds even if its folder is writable."""
     with (
         tempfile.TemporaryDirectory() as folder
-    ):  # owned by the other user if the test runs as superuser
+    ):  # the other user owns it if the test runs as superuser
         path = Path(folder) / "x.json"
         path.write_text("mine")
         path.chmod(0o444)

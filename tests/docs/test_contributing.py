@@ -38,7 +38,7 @@ def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
         shutil.copytree(ROOT / folder, root / folder, ignore=ignored)
     shutil.copy(ROOT / "pyproject.toml", root)
     assert apply_examples(root, paper=False) >= 30
-    # Derived formulas of subjects whose sources no example changes are found under their hash.
+    # Cached formulas are valid for subjects whose sources no example changes.
     if (cached := cache_folder()) is not None:
         (root / "cache" / cached.name).mkdir(mode=0o700, parents=True)
         for file in cached.glob("derivation.plate.*.theory.*"):

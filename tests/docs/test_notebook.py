@@ -66,7 +66,7 @@ def test_every_cell_has_one_formatted_output(executed: list[Any]) -> None:
         ("result.history()", "text/html", ("plate energy [J]", "12 of 201 times")),
     ],
 )
-def test_output_of_cells(
+def test_output_of_cells_contains_the_expected_text(
     source: str, kind: str, expected: tuple[str, ...], executed: list[Any]
 ) -> None:
     shown = _shown(executed, source)[kind]

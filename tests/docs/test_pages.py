@@ -104,7 +104,7 @@ def test_python_prints_the_output_on_the_page(page: Path, monkeypatch: pytest.Mo
 
 @pytest.mark.parametrize("page", PAGES, ids=name)
 def test_every_block_is_tested_or_of_an_accepted_kind(page: Path) -> None:
-    """Console and Python blocks are executed above; the others have rules of their own."""
+    """Console and Python blocks are executed above; other rules apply to the rest."""
     for kind, text in BLOCK.findall(page.read_text()):
         if page.stem in guide.PAGES and page.parent.name == "development":
             assert guide.BLOCK.match(f"```{kind}\n{text}```"), text

@@ -24,14 +24,14 @@ def interrupted_integral(*_: Any) -> Any:
     return flint.acb.integral(integrand, 0, 1)
 
 
-def test_arb_reports_another_error_which_is_replaced() -> None:
+def test_error_that_arb_reports_instead_of_the_interruption_is_replaced() -> None:
     with pytest.raises(SystemError):
         interrupted_integral()
     with pytest.raises(KeyboardInterrupt), interruptions():
         interrupted_integral()
 
 
-def test_other_errors_remain() -> None:
+def test_other_errors_are_not_replaced() -> None:
     with pytest.raises(SystemError, match="another"), interruptions():
         raise SystemError("another")
     with pytest.raises(ZeroDivisionError), interruptions():

@@ -1,4 +1,4 @@
-"""Names that are suggested for an unknown one: near ones only."""
+"""Names that are suggested for an unknown name: only similar ones."""
 
 import pytest
 from hypothesis import given
@@ -44,9 +44,9 @@ def test_a_misspelt_formula_is_suggested(name: str, meant: str) -> None:
 
 @given(WORD, WORD, WORD)
 def test_differences_are_a_distance(one: str, other: str, third: str) -> None:
-    """Zero for equal words only, symmetric; and a path over a third word is never shorter by much.
+    """The number is zero for equal words only, and symmetric.
 
-    With swaps of neighbours the triangle inequality holds up to a factor of 2.
+    Because neighbouring letters may be swapped, the triangle inequality has a factor of 2.
     """
     between = _differences(one, other)
     assert (between == 0) == (one == other)

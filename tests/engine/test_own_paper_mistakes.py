@@ -1,4 +1,4 @@
-"""Mistakes in a paper of one's own: one message that states the place and the remedy."""
+"""Mistakes in a user's paper: one message that states the position and the remedy."""
 
 import re
 from importlib import import_module

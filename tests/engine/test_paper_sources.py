@@ -1,4 +1,4 @@
-"""Sources of a paper: a proof is made again if any file that the paper imports has changed."""
+"""Sources of a paper: a proof is repeated if any file that the paper imports has changed."""
 
 import re
 from pathlib import Path

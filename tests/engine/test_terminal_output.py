@@ -119,7 +119,7 @@ def unread(pipe: int) -> int:
 
 
 def test_scene_is_read_from_a_pipe() -> None:
-    """The scene arrives in two parts: the command waits for the second one, even in a slow pipe."""
+    """The scene arrives in two parts: the command waits for the second one."""
     text = PAPER.read_text()
     script = (
         "import os, sys\nfrom derivation.cli import main\n"

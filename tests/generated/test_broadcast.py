@@ -11,15 +11,15 @@ from derivation.plate.paper import PAPER
 
 LAST_AXIS = {"plate_coefficients"}
 """Functions whose results have an additional last axis."""
-# The names are read from the record: to make the cases takes a quarter of a minute, which would
-# be spent in every process that collects the tests.
+# The names are read from the record because each process that collects tests would otherwise create
+# the cases, which takes 15 seconds.
 RECORDED = json.loads(PAPER.hard.read_text())["cases"]
 WITH_VALUE = {x["kernel"] for x in RECORDED if x["expect"] == "value" and x["form"] != "empty"}
 
 
 @pytest.mark.parametrize("name", sorted(WITH_VALUE - LAST_AXIS))
 def test_result_has_the_shape_of_a_single_array_argument(name: str, suite: Suite) -> None:
-    """The point is one of the last hard case in which the function has a value."""
+    """The point is from the last hard case in which the function has a value."""
     kernel = suite.kernels[name]
     if kernel.by_count:
         return

@@ -13,7 +13,7 @@ pytestmark = [pytest.mark.usefixtures("no_warning"), pytest.mark.one_version]
 COUNT = 20_000
 WHOLE = ("bessel", "series_constants")  # modules whose functions take whole numbers
 FUNCTIONS = [row for row in manifest.KERNELS if not row["modes"] and row["module"] not in WHOLE]
-OF_RESULTS = ("that result", "the largest a", "radius of convergence")  # in domains
+OF_RESULTS = ("that result", "the largest a", "radius of convergence")  # in conditions of domains
 LAWS = [
     row
     for row in manifest.CONTACT

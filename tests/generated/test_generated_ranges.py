@@ -103,7 +103,7 @@ def _scaled(value: float, power: int) -> float:
         return math.inf
 
 
-def test_number_of_tested_functions() -> None:
+def test_enough_functions_are_tested() -> None:
     assert len(TINY) >= 20
     assert len(WITH_UNITS) >= 30
     assert contact_law.contact_radius(-0.0, 0.1, 0.01, 1.0) == 0.0

@@ -18,9 +18,9 @@ SHOWN_BY = {
     "hertz_shape": "sonine", "cosh_square": "mode_zz", "sinh_cubic": "mode_rz",
     "cosh_quartic": "mode_zz", "sinh_quintic": "mode_zz", "cosh_quintic": "mode_rr",
 }  # fmt: skip
-"""For each building block, a function that uses it."""
-SMALL = "the last terms of a series are smaller than rounding errors"
-BRANCHES = "reduces errors within the effect of rounding the input, or both branches are accurate"
+"""A function that uses each building block."""
+SMALL = "the last terms of a series, which are smaller than rounding errors"
+BRANCHES = "a choice of branches that are both accurate, up to the effect of rounding the input"
 LENGTHS = [f"Omega_{k}{scaled}" for k in (1, 2, 3, 4) for scaled in ("", "_scaled")]
 MAY_PASS: Allowed = {
     **dict.fromkeys((*LENGTHS, "sonine", "A_j"), (2, BEYOND_ALL)),
@@ -43,7 +43,7 @@ MAY_PASS: Allowed = {
 def detected(kernel: Kernel, actual: list[PointReference], module: str, tree: ast.Module) -> bool:
     """Return whether a function exceeds its budget or fails after a module was changed.
 
-    Most mutants fail already at a few of the points.
+    Most mutants are detected at a few of the points.
     """
     users = () if kernel.module == module else (kernel.module,)
     try:

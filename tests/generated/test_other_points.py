@@ -9,7 +9,7 @@ from domains import EXAMPLE, POINTWISE, ROWS
 COUNT, CHECKED = 400, 60
 WHOLE = {"n", "k"}
 OWN_POLYNOMIALS = {"indentation", "contact_radius", "force"}
-"""Functions with a polynomial of its own for one sphere on one plate, which rounds differently."""
+"""Functions that use another polynomial, with other rounding, for one sphere on one plate."""
 SLOW = {"force_by_series"}
 NAMES = [
     name

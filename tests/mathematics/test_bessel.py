@@ -86,7 +86,7 @@ def test_values_are_within_the_budget(bessel: ModuleType, order: int, where: str
 
 
 @pytest.mark.parametrize("order", [0, 1])
-def test_huge_arguments(bessel: ModuleType, order: int) -> None:
+def test_huge_arguments_are_within_the_budget(bessel: ModuleType, order: int) -> None:
     points = np.array([2.0**50 + 1, 1e16, 1e22, 1e100, 1e300, sys.float_info.max])
     error, x = excess((bessel.bessel_j0, bessel.bessel_j1)[order], order, points)
     assert error <= VALUE_BUDGET, f"{error} ULP at {x.hex()}"
@@ -104,7 +104,7 @@ def test_no_digits_are_lost_close_to_the_first_zeros(bessel: ModuleType, order: 
     assert error <= BUDGET_NEAR_ZEROS
 
 
-def test_zeros_and_slopes(bessel: ModuleType) -> None:
+def test_zeros_and_slopes_are_within_the_budget(bessel: ModuleType) -> None:
     zeros, slopes = bessel.bessel_j0_zeros(10**6), bessel.bessel_j1_at_j0_zeros(10**6)
     assert zeros.shape == slopes.shape == (10**6,)
     for index in INDICES:
@@ -115,7 +115,7 @@ def test_zeros_and_slopes(bessel: ModuleType) -> None:
         assert ulp_error(float(slopes[index - 1]), slope) <= ZERO_BUDGET, index
 
 
-def test_zeros_of_j1(bessel: ModuleType) -> None:
+def test_zeros_of_j1_are_within_the_budget(bessel: ModuleType) -> None:
     zeros = bessel.bessel_j1_zeros(10**6)
     assert zeros.shape == (10**6,)
     assert (np.diff(zeros) > 3).all()
@@ -174,7 +174,7 @@ def test_j0_is_even_and_j1_is_odd(bessel: ModuleType) -> None:
     assert bessel.bessel_j0(0) == 1
 
 
-def test_shapes_and_types(bessel: ModuleType) -> None:
+def test_results_have_shape_and_type_of_the_arguments(bessel: ModuleType) -> None:
     x = np.linspace(-50, 50, 24).reshape(2, 3, 4)
     for function in (bessel.bessel_j0, bessel.bessel_j1):
         whole = function(x)
@@ -250,7 +250,7 @@ def test_phase_bound_is_close_to_the_first_omitted_term() -> None:
     assert theory.phase_bound(0, tables.TERMS, sp.Integer(1)) == sp.oo
 
 
-def test_known_coefficients() -> None:
+def test_coefficients_agree_with_published_ones() -> None:
     """Digital Library of Mathematical Functions, equations 10.18.17, 10.18.18 and 10.21.19."""
     third = sp.Rational(1, 3)
     assert theory.modulus_squared(0, 3).coefficients == (

@@ -65,8 +65,8 @@ def mutants(name: str) -> list[Mutant]:
     return of_expression(chain()[name].expression)
 
 
-def noticed(passes: checks.Check, expression: sp.Expr) -> bool:
-    """Return whether a mutant fails; one without a real value fails too."""
+def is_detected(passes: checks.Check, expression: sp.Expr) -> bool:
+    """Return whether a mutant fails the check; one without a real value fails too."""
     try:
         return not passes(expression)
     except (ArithmeticError, ValueError, TypeError):
@@ -79,7 +79,7 @@ def test_mutants_of_core_formulas_are_detected(name: str) -> None:
     expression = chain()[name].expression
     passes = TARGETS[name](name)
     assert passes(expression)
-    survivors = [m for m in mutants(name) if not noticed(passes, m.expression)]
+    survivors = [m for m in mutants(name) if not is_detected(passes, m.expression)]
     assert [m.name for m in survivors if not reduces_to_zero(m.expression - expression)] == []
 
 

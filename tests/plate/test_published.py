@@ -91,7 +91,9 @@ def test_misprints_are_found(
     )
 
 
-def test_statements_about_each_misprint(findings: dict[tuple[str, str], Finding]) -> None:
+def test_findings_state_the_correction_of_each_misprint(
+    findings: dict[tuple[str, str], Finding],
+) -> None:
     assert "u in (1) or that of g_j in (2)" in findings["1", "u"].repair
     assert findings["5", "Omega_3"].diagnosis.dimension == (
         "[1/Pa] expected, [m/Pa] found: a factor of [m] too much"

@@ -227,7 +227,7 @@ TESTS = {
     "bessel": ModuleTests(
         bessel_cases,
         {
-            "_modulus_phase": (3, "a sign; and which multiple of pi is taken off"),
+            "_modulus_phase": (3, "a sign; and the multiple of pi that is subtracted"),
             "bessel_j1_at_j0_zeros": (1, "a sign"),
         },
     ),

@@ -14,7 +14,7 @@ NUMBERED = [
     for number, (name, step) in enumerate(ALL, start=1)
     if inspect.unwrap(step).__module__ != chain.__name__
 ]
-"""Steps of a single function."""
+"""Numbers, names and functions of the steps that are derived in a module of `theory`."""
 
 
 def test_the_list_of_steps_is_complete_and_in_order() -> None:

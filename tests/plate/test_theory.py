@@ -63,8 +63,9 @@ UNDETERMINED = {
     "back_face_sum_thin", "back_face_sum_roots", "back_face_sum_wide",
     "bending_kap_thin", "residue_thin", "bending_fraction_thin", "gap_energy", "coupling_loss",
 }  # fmt: skip
-"""Formulas whose proof is not known to determine their expression: sums over complex roots, which
-have no balls, fits, bounds, truncated series, and terms of a sum. The set must only shrink."""
+"""Formulas whose proof is not known to determine their expression. They are sums over complex
+roots, which have no interval evaluation, fits, bounds, truncated series, and terms of a sum. No
+formula may be added."""
 
 
 def test_proofs_determine_the_expressions_of_their_formulas(formulas: Formulas) -> None:
@@ -78,7 +79,7 @@ def test_proofs_determine_the_expressions_of_their_formulas(formulas: Formulas) 
     ids=lambda derive: derive.__name__,
 )
 def test_a_formula_with_one_changed_number_is_rejected(derive: Callable[[], object]) -> None:
-    """Each number of an expression is increased in turn; `stated` alike."""
+    """Each number of the expression is increased by 1 in turn."""
     found = derive()
     for formula in found if isinstance(found, tuple) else (found,):
         for number in sorted(formula.expression.atoms(sp.Rational)):

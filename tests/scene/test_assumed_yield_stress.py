@@ -1,4 +1,4 @@
-"""The yield stress that a summary states for bodies without one: with more, nothing changes."""
+"""The yield stress that a summary assumes for bodies without one: they do not yield above it."""
 
 import re
 from typing import Any
@@ -34,7 +34,7 @@ def assumed(scene: dict[str, dict[str, Any]]) -> float | None:
 def test_body_yields_below_the_assumed_stress_and_not_above(body: str) -> None:
     stated = assumed(SCENE)
     assert stated
-    # It includes the model error, by the finite size of the sphere.
+    # The stated stress includes the model error by the finite size of the sphere.
     stress = stated / (1.0 + simulate(read(SCENE)).model_errors["max_contact_radius"])
     for factor, yields in ((1.01, False), (0.99, True)):
         result = simulate(read(changed(**{body: {"yield_stress": factor * stress}})))
@@ -75,8 +75,8 @@ def test_assumed_stress_includes_the_error_of_the_pressure() -> None:
 
 
 @pytest.mark.parametrize("speed", [0.11, 0.17, 0.23, 0.31, 0.37])
-def test_the_stated_stress_is_rounded_up(speed: float) -> None:
-    """It was rounded to the nearest three digits, and thus half of the time too small."""
+def test_stated_stress_is_rounded_up(speed: float) -> None:
+    """An earlier version rounded to nearest, and half of the stated values were too small."""
     plate = {"radius": 0.5, "thickness": 0.3}
     scene = changed(sphere={"material": "steel"}, plate=plate, impact={"speed": speed})
     stated = assumed(scene)

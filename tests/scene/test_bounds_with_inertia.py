@@ -28,7 +28,7 @@ def change(result: Result, reference: Result, name: str) -> float:
 def compared(
     data: dict[str, Any], effects: dict[str, bool], name: str
 ) -> tuple[Result, Result, float]:
-    """Return the impacts without and with an effect, and the bound on it that the first states."""
+    """Return the impacts without and with an effect, and the bound that the first states for it."""
     without, included = (
         simulate(read(data | {"effects": effects | {name: chosen}})) for chosen in (False, True)
     )
@@ -38,7 +38,7 @@ def compared(
 
 @pytest.mark.parametrize("thickness", [0.004, 0.008, 0.03])
 def test_restitution_alone_is_within_its_bound(thickness: float) -> None:
-    """The plate takes more energy of a stiffer contact: with 8e-4 stated, the error was 0.13."""
+    """A stiffer contact loses more energy to the plate; an earlier version stated 8e-4 for 0.13."""
     data = PANE | {"plate": PANE["plate"] | {"thickness": thickness}}
     result = simulate(read(data | {"accuracy": {"rtol": 0.02, "outputs": ["restitution"]}}))
     reference = simulate(read(data | {"effects": CONTACT}))
@@ -49,16 +49,16 @@ def test_restitution_alone_is_within_its_bound(thickness: float) -> None:
 @pytest.mark.parametrize(
     ("radius", "plate", "speed"),
     [
-        # 4 % of the speed remain.
+        # The restitution is 0.04.
         (2.16e-3, {"radius": 0.098, "thickness": 1.114e-3, "material": "concrete"}, 1.326),
-        # Ten contacts, in which the plate carries the sphere.
+        # There are ten contacts, and the plate carries the sphere.
         (0.0295, {"radius": 0.279, "thickness": 4.96e-3, "material": "aluminium"}, 4.09),
     ],
 )
 def test_omitted_weight_is_within_its_bound(
     radius: float, plate: dict[str, Any], speed: float
 ) -> None:
-    """The bound was as little as a ninth of the change."""
+    """An earlier version stated bounds down to a ninth of the change."""
     sphere, impact = {"radius": radius, "material": "steel"}, {"speed": speed, "gravity": 9.81}
     data = {"sphere": sphere, "plate": plate | {"edge": "simply-supported"}, "impact": impact}
     effects = {"inertia": True, "plasticity": False}
@@ -68,7 +68,7 @@ def test_omitted_weight_is_within_its_bound(
 
 
 def test_another_edge_is_within_its_bound() -> None:
-    """An echo from the edge changes the restitution by 0.21; the bound was 0.013."""
+    """An echo from the edge changes the restitution by 0.21; an earlier version stated 0.013."""
     data = {
         "sphere": {"radius": 3.78e-3, "density": 14235.0},
         "plate": {"radius": 0.139, "half_thickness": 0.0159, "youngs_modulus": 5.6e9,
@@ -112,12 +112,12 @@ SOFT: dict[str, Any] = {
         ({"retardation_time": 8e-5}, "gravity", "contact_time"),
     ],
 )
-def test_omissions_from_a_contact_that_dissipates_are_within_their_bounds(
+def test_omitted_effects_of_an_inelastic_contact_are_within_their_bounds(
     plate: dict[str, Any], omitted: str, output: str
 ) -> None:
     """A contact that yields is deeper; a viscoelastic one is stiffer and separates slowly.
 
-    The changes were 1.5 to 13 times the bounds.
+    The changes were 1.5 to 13 times the bounds of an earlier version.
     """
     data = SOFT | {"plate": SOFT["plate"] | plate, "accuracy": {"rtol": 0.1, "outputs": [output]}}
     without, reference, bound = compared(data, CONTACT | {"inertia": False}, omitted)
@@ -125,7 +125,7 @@ def test_omissions_from_a_contact_that_dissipates_are_within_their_bounds(
 
 
 def test_force_of_a_vibrating_plate_is_within_its_bound() -> None:
-    """Vibration adds to the change by the weight, which was 3 % larger than its bound."""
+    """Vibration adds to the change by the weight; it exceeded an earlier bound by 3 %."""
     data = {
         "sphere": {"radius": 1.3855, "density": 1736.0, "youngs_modulus": 5.431e9,
                    "poissons_ratio": 0.3},
@@ -141,7 +141,7 @@ def test_force_of_a_vibrating_plate_is_within_its_bound() -> None:
 
 
 def test_weight_of_a_sphere_that_hardly_rebounds_is_within_its_bound() -> None:
-    """The plate carries the sphere for a long time; the change was 4.5 times the bound."""
+    """The plate carries the sphere for a long time; the change was 4.5 times an earlier bound."""
     data = {
         "sphere": {"radius": 2.8174e-3, "material": "steel"},
         "plate": {"radius": 0.13094, "half_thickness": 9.6842e-4, "material": "PMMA",
@@ -161,7 +161,7 @@ DROP: dict[str, Any] = {
     "plate": {"half_thickness": 9.6842e-4, "material": "PMMA", "edge": "simply-supported"},
     "impact": {"speed": 5.0},
 }
-"""A sphere that a plate nearly stops, and meets again when waves return from its edge."""
+"""A plate nearly stops the sphere, and hits it again when waves return from the edge."""
 
 
 @pytest.mark.parametrize(
@@ -172,7 +172,7 @@ def test_restitution_after_a_long_flight_is_within_its_bound(
 ) -> None:
     """A change of the speed displaces the sphere until the next contact, whose phase it changes.
 
-    The bounds did not grow with the time of flight; the changes were 1.1 and 1.7 times as large.
+    Earlier bounds did not grow with the time of flight; the changes exceeded them by 10 and 70 %.
     """
     data = DROP | {
         "sphere": DROP["sphere"] | {"radius": radius},
@@ -187,7 +187,7 @@ def test_restitution_after_a_long_flight_is_within_its_bound(
 @pytest.mark.parametrize(
     ("sphere", "plate", "speed", "output"),
     [
-        # The weight decides between two and three contacts.
+        # With the weight there are three contacts instead of two, or the reverse.
         ({"radius": 2.071422935186539e-3, "material": "steel"},
          {"radius": 9.282799461484904e-2, "half_thickness": 5.143521198752183e-4,
           "material": "concrete", "edge": "clamped"}, 2.3367750151915487, "restitution"),
@@ -200,7 +200,7 @@ def test_restitution_after_a_long_flight_is_within_its_bound(
 def test_weight_during_a_long_flight_is_within_its_bound(
     sphere: dict[str, Any], plate: dict[str, Any], speed: float, output: str
 ) -> None:
-    """The weight acts between contacts too; the changes were 1.7 and 2.0 times the bounds."""
+    """The weight acts between contacts too: the changes were 1.7 and 2.0 times earlier bounds."""
     data = {
         "sphere": sphere,
         "plate": plate,
@@ -214,9 +214,9 @@ def test_weight_during_a_long_flight_is_within_its_bound(
 
 
 def test_bound_on_a_small_restitution_does_not_shrink_with_it() -> None:
-    """Changes of the speed, over those of the force, are up to 0.75, however little remains.
+    """The change of the rebound speed is up to 0.75 of that of the force, however slow the rebound.
 
-    The bound was relative to a restitution of at least 0.03.
+    An earlier version stated the bound relative to a restitution of at least 0.03.
     """
     data = DROP | {
         "sphere": DROP["sphere"] | {"radius": 3.1e-3},
@@ -230,7 +230,7 @@ def test_bound_on_a_small_restitution_does_not_shrink_with_it() -> None:
     assert row.bound * result.restitution > 0.5 * row.parameter_value
 
 
-def test_an_impact_that_increases_its_bounds_is_repeated_with_more_effects() -> None:
+def test_impact_whose_contacts_increase_the_bounds_is_repeated_with_more_effects() -> None:
     """Three contacts increase the bound on the omitted weight from 0.011 to 0.030."""
     data = {
         "sphere": {"radius": 2.0177e-3, "material": "steel"},
@@ -251,7 +251,7 @@ def test_an_impact_that_increases_its_bounds_is_repeated_with_more_effects() -> 
 
 @pytest.mark.parametrize("chosen", [{"inertia": False}, {"inertia": False, "damping": False}])
 def test_bound_without_inertia_covers_the_damping_omitted_with_it(chosen: dict[str, bool]) -> None:
-    """The bound was that of the vibration alone, which the change by its damping exceeds."""
+    """An earlier bound was that of the vibration alone; the change by its damping exceeds it."""
     tables: dict[str, Any] = {
         "sphere": {"radius": 0.061, "density": 4844.0},
         "plate": {
@@ -286,7 +286,7 @@ STIFF: dict[str, Any] = {
 
 
 def test_contact_time_alone_is_within_its_bound_with_few_modes() -> None:
-    """The error was 1.3 times the bound with four modes."""
+    """With four modes the error was 1.3 times the bound of an earlier version."""
     accuracy = {"rtol": 2.7e-4, "outputs": ["contact_time"]}
     result = simulate(read(STIFF | {"accuracy": accuracy}))
     reference = simulate(read(STIFF | {"inertia": {"modes": 40, "branches": "all"}}))
@@ -294,7 +294,7 @@ def test_contact_time_alone_is_within_its_bound_with_few_modes() -> None:
 
 
 def test_pointwise_coupling_has_no_bound_and_meets_no_tolerance() -> None:
-    """Short waves gain energy by it: 80 instead of 20 modes changed the peak force by 30 %."""
+    """It adds energy to short waves: with 80 instead of 20 modes the peak force changes by 30 %."""
     pointwise = PANE | {"inertia": {"coupling": "pointwise"}}
     assert math.isinf(simulate(read(pointwise)).accuracy.bound)
     with pytest.raises(SceneError, match=r"inertia\.coupling: expected \"variational\""):
@@ -302,7 +302,7 @@ def test_pointwise_coupling_has_no_bound_and_meets_no_tolerance() -> None:
 
 
 def test_contact_that_vibration_splits_has_no_bound_on_its_duration() -> None:
-    """The first of two contacts lasts 2 % of the quasi-static one; the bound was 0.69."""
+    """The first of two contacts lasts 2 % of the quasi-static one; an earlier bound was 0.69."""
     data = {
         "sphere": {
             "radius": 0.1343, "density": 5194, "youngs_modulus": 12.2e6, "poissons_ratio": 0.35,

@@ -1,4 +1,4 @@
-"""Comparison of two runs whose contacts differ, with different numbers of plate modes."""
+"""Comparison of two runs with different numbers of plate modes, whose contacts differ."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -26,7 +26,7 @@ def run_of(*spans: tuple[float, float]) -> Any:
         # A short contact that only one of the runs has is compared at equal times.
         (((0, 1), (1.2, 1.3), (2, 3)), ((0, 1.01), (2.02, 3)), [(0, 0), (2, 2.02), (1.2, 1.2)]),
         (((0, 1), (2, 3)), ((0, 1), (1.2, 1.3), (2.02, 3)), [(0, 0), (1.2, 1.2), (2, 2.02)]),
-        # The longer part of a contact that another run splits is the same one.
+        # If one run splits a contact of the other, the longer part is paired with it.
         (((0, 1), (2, 4)), ((0, 1), (2.01, 2.4), (2.5, 4)), [(0, 0), (2.01, 2.01), (2, 2.5)]),
     ],
 )
@@ -40,7 +40,7 @@ def test_contacts_are_paired_by_the_time_that_they_share(
 
 
 def test_the_time_of_a_single_contact_may_agree_by_chance() -> None:
-    """Results that change much show that an almost unchanged contact time is no evidence."""
+    """If other results change much, an almost unchanged contact time does not show convergence."""
     scene = {
         "sphere": {"radius": 0.004, "material": "steel"},
         "plate": {"radius": 0.06, "thickness": 0.03, "material": "concrete"},

@@ -42,15 +42,15 @@ def impact(
 
 
 @pytest.mark.one_version
-def test_static_modes_of_a_held_plate_curve_it_as_those_of_the_paper() -> None:
-    """With 80 dynamic modes, most modes of a held plate respond statically."""
-    held, other = (impact(240, edge, modes=80) for edge in ("clamped", "paper"))
-    assert held.max_contact_radius == pytest.approx(other.max_contact_radius, rel=3e-5)
+def test_static_modes_of_a_clamped_plate_have_the_curvature_of_the_edge_of_the_paper() -> None:
+    """With 80 dynamic modes, most modes of the plate respond quasi-statically."""
+    clamped, paper = (impact(240, edge, modes=80) for edge in ("clamped", "paper"))
+    assert clamped.max_contact_radius == pytest.approx(paper.max_contact_radius, rel=3e-5)
 
 
 @pytest.mark.one_version
 @pytest.mark.parametrize("material", MATERIALS)
-def test_an_edge_that_no_wave_has_reached_does_not_change_the_contact(material: str) -> None:
+def test_edge_has_no_effect_before_a_wave_reaches_it(material: str) -> None:
     """The static curvature under the contact grows with the logarithm of the plate radius."""
     near, far, clamped = (
         impact(ratio, edge, **MATERIALS[material])
@@ -65,7 +65,7 @@ def test_an_edge_that_no_wave_has_reached_does_not_change_the_contact(material: 
 
 
 @pytest.mark.parametrize(("width", "agreement"), [(0.3, 0.004), (0.6, 0.01)])
-def test_without_its_long_waves_a_law_does_not_depend_on_the_plate_radius(
+def test_contact_law_without_long_waves_does_not_depend_on_the_plate_radius(
     width: float, agreement: float
 ) -> None:
     """The laws of two static plates differ by the curvature of long waves.
@@ -93,7 +93,7 @@ def test_without_its_long_waves_a_law_does_not_depend_on_the_plate_radius(
         # The middle between the last wave number and the next is the same, phi h = 1.5.
         modes = free_modes(law.model, round(ratio * 3.0 / np.pi - 0.75))
         tables = contact_of(rest, ModalPlate(modes, modes, None), 1.3 * width * h, False)
-        force = 4.0 / 3.0 * rest.modulus * (width * h) ** 3 / 0.03  # of Hertz's law
+        force = 4.0 / 3.0 * rest.modulus * (width * h) ** 3 / 0.03  # by Hertz's law
         a = np.array([brentq(excess, 1e-3 * h, tables.top, (tables, force))])
         radii.append(a[0])
         ratio_of_radii = tables.radius_ratio(a, np.zeros((1, modes.phi.size)))
@@ -104,7 +104,7 @@ def test_without_its_long_waves_a_law_does_not_depend_on_the_plate_radius(
 
 
 @pytest.mark.one_version
-def test_the_error_of_pressure_and_radius_covers_the_radius_of_the_plate() -> None:
+def test_model_error_covers_the_change_by_the_plate_radius() -> None:
     results = [impact(ratio, thickness=5e-4) for ratio in (480, 960)]
     one, other = (np.array([r.max_contact_radius, r.max_pressure]) for r in results)
     allowed = sum(r.model_errors["max_contact_radius"] for r in results)
@@ -119,12 +119,12 @@ def test_largest_radius_is_that_of_the_history() -> None:
         times = np.linspace(first.start, first.end, 4001)
         _, _, radius, _ = result.dynamics.history(result.dynamics.law, times)
         assert np.max(radius) == pytest.approx(result.max_contact_radius, rel=1e-5)
-        # The exported history had the radius of the static law, which is 1 % larger.
+        # An earlier version exported the radius of the static law, which is 1 % larger.
         assert result.at(times).history().contact_radius == pytest.approx(radius, rel=1e-12)
 
 
 def test_profile_of_the_pressure_carries_the_largest_force() -> None:
-    """It was that of the static law: its force was 0.5 % too small, here 1 %."""
+    """An earlier version gave the pressure of the static law: its force was 1 % too small here."""
     result = impact(120)
     r, pressure, _ = result.pressures(20001)
     assert pressure[0] == pytest.approx(result.max_pressure, rel=1e-12)

@@ -1,4 +1,4 @@
-"""Tests for the search for the rise of a function through zero."""
+"""Test the search for the point where a function rises through zero."""
 
 import math
 from collections.abc import Callable
@@ -18,8 +18,8 @@ RISES: dict[str, tuple[Callable[[float], float], float]] = {
     "near the end": (lambda x: x - (1.0 - 1e-15), 1.0 - 1e-15),
     "zero at the start": (lambda x: x * (x - 0.7), 0.7),
     "zero at both ends": (lambda x: x * (x - 0.5) * (1.0 - x), 0.5),
-    "level beyond the rise": (lambda x: min(x - 0.3, 0.1), 0.3),
-    "level below the rise": (lambda x: max(x - 0.8, -0.1), 0.8),
+    "constant beyond the rise": (lambda x: min(x - 0.3, 0.1), 0.3),
+    "constant below the rise": (lambda x: max(x - 0.8, -0.1), 0.8),
     "no value at the end": (lambda x: x - 0.3 if x < 0.9 else math.nan, 0.3),
 }
 
@@ -64,6 +64,6 @@ def test_accuracy_that_suffices_saves_evaluations(name: str) -> None:
 
 
 def test_a_zero_within_an_error_suffices() -> None:
-    """The function is 0 in an interval, as a difference within its error is."""
+    """The function is 0 in an interval, like a difference that is set to 0 within its error."""
     found = rise(lambda x: 0.0 if abs(x - 0.4) < 0.01 else x - 0.4, 0.0, 1.0, close=1e-12)
     assert abs(found - 0.4) < 0.01

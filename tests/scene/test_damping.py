@@ -260,8 +260,8 @@ def test_damping_is_omitted_for_a_nearly_quasi_static_plate() -> None:
 
 
 @pytest.mark.one_version
-def test_the_bound_covers_omitted_modes_that_would_be_damped() -> None:
-    """Each doubling changes a strongly damped impact as much as the last: the bound was 1e-4."""
+def test_bound_covers_omitted_modes_of_a_strongly_damped_plate() -> None:
+    """Each doubling of the modes changes the results by the same amount; an old bound was 1e-4."""
     marble = {
         "sphere": {"radius": 0.0108, "material": "glass"},
         "plate": {"radius": 0.08, "thickness": 0.0138, "material": "alumina",

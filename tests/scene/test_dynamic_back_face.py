@@ -46,7 +46,7 @@ def test_the_edge_has_no_effect_before_a_wave_has_returned() -> None:
 
 
 def test_stress_of_a_thin_plate_is_that_of_an_integral_over_wave_numbers() -> None:
-    """Bending waves of an infinite thin plate under Hertz's pressure, by quadrature."""
+    """The integral is over the bending waves of an infinite thin plate under Hertz's pressure."""
     result = impact(H=0.002, b=0.3, radius=0.004, speed=0.5)
     law, motion = result.effects.law, result.dynamics
     assert motion is not None
@@ -60,21 +60,21 @@ def test_stress_of_a_thin_plate_is_that_of_an_integral_over_wave_numbers() -> No
     a = result.max_contact_radius
     static = law.max_tensile_stress(a, float(force[-1]), on_edge=False)
 
-    def lag(k: float) -> float:
-        """Return the moment of one wave number less its static one."""
+    def dynamic_part(k: float) -> float:
+        """Return the moment of one wave number minus its static value."""
         omega = k * k * math.sqrt(stiff / (m.density * H))
         answer = np.trapezoid(np.gradient(force, times) * np.cos(omega * (now - times)), times)
         y = k * a
         hertz = 3.0 * (math.sin(y) - y * math.cos(y)) / y**3
         return -float(answer) * hertz / k
 
-    # sigma = E H k^2/(4 (1 - nu)) w, w = P k dk/(2 pi) over rho H omega^2.
+    # sigma = E H k^2/(4 (1 - nu)) w, and w = P k dk/(2 pi rho H omega^2).
     factor = E * H / (4.0 * (1.0 - nu)) / (2.0 * math.pi * stiff)
     first = 2.404825557695773 / m.b
-    moved = factor * quad(lag, 0.5 * first, 12.0 / m.h, limit=2000)[0]
+    moved = factor * quad(dynamic_part, 0.5 * first, 12.0 / m.h, limit=2000)[0]
     course = stresses._stress_history(motion, law, 400)
     found = float(np.interp(now, *course))
-    assert moved < -0.2 * static  # the plate lags far behind
+    assert moved < -0.2 * static  # the response is far from static
     assert found == pytest.approx(static + moved, rel=0.03)
 
 
@@ -166,7 +166,7 @@ def test_error_of_a_slow_impact_covers_the_vibration_that_a_static_plate_omits(e
 
 
 @pytest.mark.parametrize(
-    ("edge", "H", "lacking"),
+    ("edge", "H", "difference"),
     [
         ("paper", 0.04, 0.0),
         ("clamped", 0.008, 7e-4),
@@ -174,31 +174,31 @@ def test_error_of_a_slow_impact_covers_the_vibration_that_a_static_plate_omits(e
         ("clamped", 0.08, -0.11),
     ],
 )
-def test_a_static_load_on_all_waves_lacks_a_part_of_the_edge(
-    edge: str, H: float, lacking: float
+def test_static_stress_of_all_waves_has_a_different_edge_term(
+    edge: str, H: float, difference: float
 ) -> None:
     """Only bending modes below their cut-off depend on the edge of the scene.
 
-    A slow impact on a clamped plate with h/b = 0.25 had 1.5 % more stress than the static load, and
-    a stated error of 1 %.
+    For a slow impact on a clamped plate with h/b = 0.25, an earlier version stated an error of 1 %;
+    the stress was 1.5 % above the static one.
     """
     law = branching(selected_effects(scene(edge, b=0.08, H=H))[1].law, "all")
     a = np.array([0.1 * law.model.h])
     waves = stresses._Waves.of(law, 40, float(a[0]))
     [static] = law.tensile_stresses(a, np.ones(1))
     [found] = waves.static(a)
-    assert found / static - 1.0 == pytest.approx(lacking, rel=0.1, abs=1e-9)
+    assert found / static - 1.0 == pytest.approx(difference, rel=0.1, abs=1e-9)
 
 
-def test_the_error_of_the_stress_includes_what_lacks_of_the_edge() -> None:
+def test_error_of_the_stress_includes_the_missing_edge_term() -> None:
     result = impact("clamped", b=0.04, H=0.04, speed=0.5)
     motion, [a] = result.dynamics, [np.array([result.max_contact_radius])]
     assert motion is not None
     law, echo = motion.law, stresses.echo_time(motion.law.model)
     assert motion.inertia.total_time > echo
     waves = stresses._Waves.of(branching(law, "all"), 40, float(a[0]))
-    lacks = float((waves.static(a) - law.tensile_stresses(a, np.ones(1)))[0]) * result.max_force
+    missing = float((waves.static(a) - law.tensile_stresses(a, np.ones(1)))[0]) * result.max_force
     assert motion.back_face.on_edge == pytest.approx(
-        abs(lacks) / result.max_tensile_stress, rel=1e-2
+        abs(missing) / result.max_tensile_stress, rel=1e-2
     )
     assert result.tensile_stress.error > motion.back_face.on_edge > 0.1

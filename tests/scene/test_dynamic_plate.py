@@ -83,7 +83,7 @@ def test_disabled_small_static_part_keeps_inertia(part: str) -> None:
         assert abs(other / one - 1.0) <= size + whole.accuracy.bound + without.accuracy.bound
 
 
-def test_results_as_data(result: Any) -> None:
+def test_json_and_history_are_consistent(result: Any) -> None:
     data = json.loads(json.dumps(result.to_json()))["dynamics"]
     balance = data["energy_balance"]
     assert abs(balance["residual"]) <= 1e-11
@@ -190,8 +190,8 @@ def test_explain_states_plate_inertia() -> None:
     assert explanation.evaluation_times["inertia"] > 0.0
 
 
-def test_weight_may_increase_the_speed_of_separation_but_no_energy() -> None:
-    """The sphere leaves the plate below the place where it met it: its restitution is 1.21."""
+def test_weight_may_increase_the_speed_but_not_the_energy() -> None:
+    """The sphere separates below the height of first contact: its restitution is 1.21."""
     speed, gravity = 3.938e-5, 0.015288
     outcome = simulate(read({
         "sphere": {"radius": 0.11199, "density": 830.06, "youngs_modulus": 1.095e14,
@@ -205,13 +205,13 @@ def test_weight_may_increase_the_speed_of_separation_but_no_energy() -> None:
     balance, dynamics = outcome.energy_balance, outcome.dynamics
     assert balance is not None
     assert dynamics is not None
-    # By the momentum, not by the energy: the impulse of the contact and that of the weight.
+    # The rebound speed follows from the impulses of the contact and of the weight.
     mass = 2.0 * balance.initial_kinetic / speed**2
     impulse = sum(touch.impulse for touch in dynamics.inertia.contacts)
     rebound = impulse / mass - speed - gravity * dynamics.inertia.total_time
     assert outcome.restitution == pytest.approx(rebound / speed, rel=1e-9)
     assert outcome.restitution > 1.2
-    # At the height of the first contact less speed would remain than the sphere had.
+    # At the height of first contact, the rebound speed would be below the impact speed.
     depth = balance.gravity_work / mass / gravity
     assert 0.0 < depth < 0.1 * outcome.max_indentation
     assert 0.9 < math.sqrt(rebound**2 - 2.0 * gravity * depth) / speed < 1.0

@@ -34,7 +34,7 @@ def impact(m: Model, effects: frozenset[str]) -> Motion:
         return motion.impact(ContactLaw(m, effects))
 
 
-def apart(one: Motion, other: Motion) -> float:
+def largest_difference(one: Motion, other: Motion) -> float:
     """Return the largest difference of the results, relative to the second impact."""
     return max(abs(x / y - 1) for x, y in zip(one.numbers, other.numbers, strict=True))
 
@@ -100,7 +100,7 @@ def test_change_by_an_effect_is_within_its_bound_and_close_to_it(
         selected = decide(m, AT_REST | wanted, 1.0, (output,))
         assert selected.law.effects == every - {name}
         bound = {row.name: row.bound for row in selected.rows}[name]
-        if output == "restitution":  # which is 1 without viscosity
+        if output == "restitution":  # it is 1 without viscosity
             assert (x, y, bound) == (1.0, 1.0, 0.0)
         else:
             used_fractions.append(abs(x / y - 1) / bound)
@@ -120,7 +120,7 @@ def test_bounds_hold_with_non_hertzian_pressure(name: str) -> None:
     wanted = {other: other != name for other in ALL} | AT_REST
     selected = decide(m, AT_REST | wanted, 1.0)
     bound = {row.name: row.bound for row in selected.rows}[name]
-    assert 0.2 < apart(impact(m, ALL - {name}), impact(m, ALL)) / bound <= 1
+    assert 0.2 < largest_difference(impact(m, ALL - {name}), impact(m, ALL)) / bound <= 1
     # The bound of the spherical profile is known for Hertz's pressure only.
     flat = decide(m, AT_REST | wanted | {"spherical_profile": False}, 1.0)
     assert {row.name: row.bound for row in flat.rows}["spherical_profile"] == math.inf
@@ -161,7 +161,7 @@ def test_included_effects_have_a_bound(edge: str) -> None:
     assert selected.law.effects == every
     for row in selected.rows:
         if row.included and row.name != "hertz":
-            change = apart(impact(m, every - {row.name}), impact(m, every))
+            change = largest_difference(impact(m, every - {row.name}), impact(m, every))
             assert 0.03 * row.bound < change <= 1.02 * row.bound
 
 
@@ -188,7 +188,9 @@ def test_error_is_within_the_bound_at_every_threshold(name: str) -> None:
         selection = decide(m, AT_REST, rtol)
         assert selection.law.effects > before
         assert selection.error <= rtol
-        assert apart(impact(m, selection.law.effects), whole) <= selection.error + 5e-14
+        assert (
+            largest_difference(impact(m, selection.law.effects), whole) <= selection.error + 5e-14
+        )
         if not selection.error:
             break
         assert decide(m, AT_REST, selection.error).law.effects == selection.law.effects

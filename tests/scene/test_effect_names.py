@@ -13,7 +13,7 @@ SCENE = Path(derivation.scene.__file__).parent
 FILES = sorted(path for path in SCENE.rglob("*.py") if path.parent.name != "effects")
 
 
-def told_apart(source: str) -> Iterator[str]:
+def names_used(source: str) -> Iterator[str]:
     """Yield names of effects that are compared, looked up, put in a set or read from `effects`."""
     for node in ast.walk(ast.parse(source)):
         inside: list[ast.AST] = []
@@ -34,7 +34,7 @@ def told_apart(source: str) -> Iterator[str]:
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_names_of_effects_are_not_compared(path: Path) -> None:
-    assert list(told_apart(path.read_text())) == []
+    assert list(names_used(path.read_text())) == []
 
 
 @pytest.mark.parametrize(
@@ -51,7 +51,7 @@ def test_names_of_effects_are_not_compared(path: Path) -> None:
     ],
 )
 def test_comparison_of_a_name_is_found(source: str) -> None:
-    assert "non_hertzian_pressure" in told_apart(source)
+    assert "non_hertzian_pressure" in names_used(source)
 
 
 def test_requirements_of_effects_are_effects() -> None:

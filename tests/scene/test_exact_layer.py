@@ -65,10 +65,10 @@ def layer_stress(result: pc.Result) -> tuple[Array, Array]:
     t = np.arange(TIMES) * (1.5 * last / TIMES)
     rows = motion.rows(np.minimum(t, T))
     force, a = np.where(t < T, rows[P], 0.0), np.maximum(rows[A], 1e-9)
-    shift = 10.0 / t[-1]  # of the Laplace transform, which makes the end of the times small
+    shift = 10.0 / t[-1]  # of the Laplace variable, so that the periodic extension is negligible
     s = shift + 2j * np.pi * np.fft.rfftfreq(TIMES, t[1])
     slowness = math.sqrt(m.density / (m.lam + 2 * m.mu)), 1.0 / m.shear_speed
-    # Waves that are much shorter than contact and thickness fade out gradually.
+    # Waves much shorter than contact radius and thickness have gradually smaller weights.
     shortest = max(25.0, 12.0 * m.h / result.max_contact_radius)
     x, weights = leggauss(16)
     ends = np.linspace(0.0, shortest, 2 + math.ceil(shortest / 2.0))
@@ -91,10 +91,10 @@ def layer_stress(result: pc.Result) -> tuple[Array, Array]:
     ("nu", "width", "echoes"), [(0.3, 0.1, 5.0), (0.489, 0.1, 8.0), (0.489, 0.02, 5.0)]
 )
 def test_stress_is_that_of_the_exact_layer(nu: float, width: float, echoes: float) -> None:
-    """Finite elements have 5 to 10 % more for nu = 0.489.
+    """Finite elements give 5 to 10 % more for nu = 0.489.
 
-    The layer has our stress also under the contact force of the finite elements: their stress
-    jitters by 10 % as nodes come into contact, and smoothing does not remove this.
+    Their stress oscillates by 10 % as nodes come into contact, and smoothing does not remove this.
+    Under their contact force, the exact layer also has the stress of this program.
     """
     result = impact(nu, width, echoes)
     t, stress = layer_stress(result)
@@ -104,10 +104,10 @@ def test_stress_is_that_of_the_exact_layer(nu: float, width: float, echoes: floa
 
 
 @pytest.mark.parametrize(("nu", "echoes", "factor"), [(0.489, 3.0, 1.4), (0.489, 2.0, 3.0)])
-def test_the_largest_stress_may_follow_the_last_separation(
+def test_largest_stress_may_occur_after_the_last_separation(
     nu: float, echoes: float, factor: float
 ) -> None:
-    """The stress was that until the separation: a twentieth of the largest one in some impacts."""
+    """An earlier version stopped at separation, at as little as 1/20 of the largest stress."""
     result = impact(nu, 0.02, echoes)
     t, stress = layer_stress(result)
     before = float(stress[t < result.contact_time].max())

@@ -106,15 +106,15 @@ def radius_of(force: float, nu: float) -> float:
     return float(brentq(excess, 1e-6, 0.99))
 
 
-def test_the_series_is_that_of_a_half_space_for_narrow_contacts() -> None:
+def test_series_for_narrow_contacts_agrees_with_the_half_space() -> None:
     force, depth = pressed(0.5 - 1e-9, 0.01)
     hertz = (force * 3 / 4 * (1 - 0.25) / 3.0) ** (2 / 3)
     assert depth == pytest.approx(hertz, rel=0.01)
 
 
 @pytest.mark.parametrize("nu", [-0.9, -0.5, 0.0, 0.3, 0.49])
-def test_the_error_covers_the_indentation_at_equal_force(nu: float) -> None:
-    """It was 4e-12, and the indentation of a sphere of rubber 6 % too large at a/R = 0.1."""
+def test_error_covers_the_indentation_at_equal_force(nu: float) -> None:
+    """An earlier version stated 4e-12; the indentation of rubber was 6 % too large at a/R = 0.1."""
     law = on_stiff_block(nu, 1e-3).effects.law
     sizes = []
     for angle in (0.02, 0.1, 0.3):
@@ -169,14 +169,14 @@ def spheroidal(n: int, nu: float, terms: int = 14) -> tuple[Array, Array]:
     return np.sqrt(squares[moving]), np.asarray((ends @ basis @ shapes[:, moving]) ** 2)
 
 
-def test_the_modes_are_those_of_lamb() -> None:
-    """Lamb 1882: omega R/c_T of the sphere with Poisson's ratio 1/4."""
+def test_frequencies_agree_with_lamb() -> None:
+    """Lamb (1882) gives omega R/c_T of a sphere with Poisson's ratio 1/4."""
     assert spheroidal(2, 0.25)[0][:2] == pytest.approx([2.640, 4.865], abs=1e-3)
     assert spheroidal(0, 0.25)[0][0] == pytest.approx(4.440, abs=1e-3)
 
 
 def impact(nu: float, ratio: float) -> tuple[float, Array]:
-    """Return the speed at which Hertz's a/R has a value, and the changes since Hertz's impact.
+    """Return the speed at which Hertz's a/R is `ratio`, and the changes relative to Hertz's impact.
 
     Hertz's contact is in series with the difference of the sphere from a half-space. Modes of low
     order and frequency vibrate; the sphere deflects in all others as under a static force. The
@@ -210,13 +210,13 @@ def impact(nu: float, ratio: float) -> tuple[float, Array]:
 
     whole = 2.943 * ratio**2 / speed
 
-    def left(t: float, y: Array) -> float:
+    def separation(t: float, y: Array) -> float:
         return float(y[0] - np.sum(y[2 : 2 + omega.size]) + (t < 0.1 * whole))
 
-    left.terminal, left.direction = True, -1  # type: ignore[attr-defined]
+    separation.terminal, separation.direction = True, -1  # type: ignore[attr-defined]
     start = np.concatenate([[0.0, speed], np.zeros(2 * omega.size)])
     run = solve_ivp(
-        rate, (0, 2 * whole), start, "DOP853", events=left, rtol=1e-8, atol=1e-12,
+        rate, (0, 2 * whole), start, "DOP853", events=separation, rtol=1e-8, atol=1e-12,
         max_step=whole / 200,
     )  # fmt: skip
     largest = force(run.y).max() / (4 / 3 * modulus * ratio**3)
@@ -225,7 +225,7 @@ def impact(nu: float, ratio: float) -> tuple[float, Array]:
 
 
 @pytest.mark.parametrize(("nu", "ratio"), [(0.0, 0.2), (0.3, 0.1), (0.3, 0.3), (0.48, 0.2)])
-def test_the_error_covers_impacts_of_a_sphere_that_vibrates(nu: float, ratio: float) -> None:
+def test_error_covers_impacts_of_a_sphere_that_vibrates(nu: float, ratio: float) -> None:
     speed, changes = impact(nu, ratio)
     result = on_stiff_block(nu, speed)
     assert result.max_contact_radius == pytest.approx(ratio, rel=0.02)
@@ -255,10 +255,10 @@ PANE: dict[str, Any] = {
         (0.3, 0.008, {"retardation_time": 2e-6}),
     ],
 )
-def test_the_error_covers_a_plate_with_inertia(
+def test_error_covers_a_plate_with_inertia(
     radius: float, thickness: float, more: dict[str, float]
 ) -> None:
-    """A stiffer sphere compresses as much less as a finite one, at least at the largest force."""
+    """A stiffer sphere represents the smaller compression of a finite one at the largest force."""
     plate = PANE["plate"] | {"radius": radius, "thickness": thickness} | more
     late = {key: value for key, value in more.items() if key == "retardation_time"}
     tables = PANE | {"plate": plate, "sphere": PANE["sphere"] | late}
@@ -283,8 +283,8 @@ def test_the_error_covers_a_plate_with_inertia(
 
 
 @pytest.mark.parametrize("nu", [-0.9, -0.5, 0.0, 0.25, 0.3, 0.45, 0.499])
-def test_the_first_order_is_that_of_the_series(nu: float) -> None:
-    """The limit for small a/R of the change at equal force, without the error of second order."""
+def test_first_order_agrees_with_the_series(nu: float) -> None:
+    """The change at equal force for small a/R, extrapolated to remove the second order."""
     ratios, changes = [], []
     for angle in (0.1, 0.2):
         force, depth = pressed(nu, angle)
@@ -296,12 +296,12 @@ def test_the_first_order_is_that_of_the_series(nu: float) -> None:
 
 
 @pytest.mark.parametrize("nu", [-0.9, 0.0, 0.3, 0.499])
-def test_the_sum_of_the_first_order_is_that_of_digamma_functions(nu: float) -> None:
+def test_first_order_equals_a_sum_of_digamma_functions(nu: float) -> None:
     """Partial fractions of t_n over its poles, whose residues add up to 0."""
     root = mp.sqrt(mp.mpc(nu * nu - 0.75))
     poles = [mp.mpf(1), -nu - 0.5 + root, -nu - 0.5 - root, mp.mpf("-0.5")]
     values = []
-    for pole in poles:  # of t_n in n, by its value close to the pole
+    for pole in poles:  # residue of t_n in n, from its value close to the pole
         near = pole + mp.mpf("1e-12")
         m, other = near + mp.mpf("0.5"), near**2 + near + 1 + nu * (2 * near + 1)
         whole = m * (2 * (1 - nu) * near**2 + nu * near + 2 * nu - 1) / (2 * (near - 1) * other)
@@ -321,7 +321,9 @@ def test_the_sphere_is_compressed_less_than_a_half_space_where_it_is_incompressi
 
 
 @pytest.mark.parametrize(("nu", "of_face"), [(0.0, 0.2122), (0.22, 0.1523), (0.5, 0.0)])
-def test_the_error_of_a_rigid_sphere_is_the_motion_of_the_face(nu: float, of_face: float) -> None:
+def test_error_of_a_rigid_sphere_is_that_of_the_motion_of_the_face(
+    nu: float, of_face: float
+) -> None:
     rigid = {"radius": 0.01, "density": 7800.0}
     plate = PANE["plate"] | {"poissons_ratio": min(nu, 0.4999999), "thickness": 0.1}
     tables = PANE | {"sphere": rigid, "plate": plate, "effects": {"inertia": False}}

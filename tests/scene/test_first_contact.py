@@ -1,4 +1,4 @@
-"""Bounds on the duration of the first contact, which omitted effects or modes change by a jump."""
+"""Bounds on the duration of the first contact, which omitted effects or modes may split."""
 
 import math
 from dataclasses import replace
@@ -28,7 +28,7 @@ def selected() -> SelectedEffects:
     return selected_effects(scene)[1]
 
 
-def test_change_that_joins_or_splits_the_first_contact(selected: SelectedEffects) -> None:
+def test_decisive_change_joins_or_splits_the_first_contact(selected: SelectedEffects) -> None:
     result = dynamic_impact(selected, 0.5)
     first, second = result.inertia.contacts[:2]
     gap = (second.start - first.end) / (first.end - first.start)
@@ -93,7 +93,9 @@ def test_bound_of_an_elastic_contact_includes_a_jump_by_higher_branches() -> Non
     The first contact is split with the lowest branch, and joined with all branches.
     """
     slow, fast = 0.02115, 0.02117
-    while fast / slow - 1.0 > 1e-6:  # the lowest branch splits contacts at speeds above
+    while (
+        fast / slow - 1.0 > 1e-6
+    ):  # find the speed above which the lowest branch splits the contact
         middle = math.sqrt(slow * fast)
         split = nearly_split(middle, branches="A0", modes=48).contact_time < 6.5e-4
         slow, fast = (slow, middle) if split else (middle, fast)
@@ -106,14 +108,14 @@ def test_bound_of_an_elastic_contact_includes_a_jump_by_higher_branches() -> Non
     assert without_jump < 0.01 < 0.3 < change < result.bound_of("contact_time")
     assert any("contact_time may change by" in text for text in result.warnings)
     assert any("model error of the force" in text for text in result.warnings)
-    assert jump_since(result.dynamics) > 0.3  # by the omitted branches alone
+    assert jump_since(result.dynamics) > 0.3  # due to the omitted branches alone
     # Two per cent from this speed the first contact does not jump, and its bound is small.
     for speed in (0.0207, 0.0216):
         assert nearly_split(speed, branches="A0", modes=48).bound_of("contact_time") < 1e-3
 
 
 @pytest.mark.parametrize("speed", [0.02112, 0.02116, 0.0212])
-def test_a_tolerance_includes_what_decides_whether_the_first_contact_splits(speed: float) -> None:
+def test_tolerance_is_met_close_to_the_jump_of_the_duration(speed: float) -> None:
     """Close to the jump, more modes or all branches are included until the duration is certain."""
     result = nearly_split(speed, rtol=1e-2)
     exact = nearly_split(speed, branches="all", modes=140)
@@ -130,8 +132,8 @@ def test_bound_of_an_elastic_contact_includes_a_jump_by_more_modes_alone(speed: 
     assert result.bound_of("contact_time") > result.dynamics.inertia.jump > 0.3
 
 
-def test_the_rough_onset_of_a_viscoelastic_contact_is_no_jump() -> None:
-    """Its force rises, falls and rises within a thousandth of the contact, by omitted modes."""
+def test_oscillating_onset_of_a_viscoelastic_contact_is_no_jump() -> None:
+    """Omitted modes cause oscillations of the force in the first thousandth of the contact."""
     times = {"retardation_time": 1.598e-5}
     plate = {"radius": 0.0318, "thickness": 8.97e-4, "material": "Gorilla Glass 3"}
     result = simulate(read({
@@ -148,5 +150,5 @@ def test_the_rough_onset_of_a_viscoelastic_contact_is_no_jump() -> None:
 def test_a_model_error_may_split_a_contact_only_if_it_exceeds_the_decisive_change(
     decisive_change: float, error: float, warned: int
 ) -> None:
-    """Without a minimum of the force, and a second contact, no change splits or joins it."""
+    """A decisive change of 1 means that no change splits or joins the contact."""
     assert len(model_jump_warnings(decisive_change, error)) == warned

@@ -116,18 +116,18 @@ def test_search_in_a_long_flight_respects_the_work_limit() -> None:
 
 
 def test_run_above_the_work_limit_is_not_started(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Coarser runs judge the first run; without them it is returned as incomplete."""
+    """Coarser runs give the error of the first run; without them it is returned as incomplete."""
     wide = replace(BALL, b=1.5, inertia=InertiaSettings(branches="A0"))
     law = ContactLaw(wide, EFFECTS)
     waves.impact.cache_clear()
     begun: list[ImpactHistory] = []
     follow = contact_sequence.impact_history
 
-    def noted(*args: Any, **options: Any) -> ImpactHistory:
+    def recorded(*args: Any, **options: Any) -> ImpactHistory:
         begun.append(follow(*args, **options))
         return begun[-1]
 
-    monkeypatch.setattr(contact_sequence, "impact_history", noted)
+    monkeypatch.setattr(contact_sequence, "impact_history", recorded)
     whole = waves.impact(law)
     assert whole.inertia.complete
     assert len(begun) > 1
@@ -136,12 +136,12 @@ def test_run_above_the_work_limit_is_not_started(monkeypatch: pytest.MonkeyPatch
     begun.clear()
     waves.impact.cache_clear()
     monkeypatch.setattr(contact_sequence, "WORK", 0.5 * (first.work + second.work))
-    judged = waves.impact(law)
+    limited = waves.impact(law)
     assert max(history.problem.omega.size for history in begun) == first.problem.omega.size
-    assert judged.inertia.complete
+    assert limited.inertia.complete
     # The estimated error covers the difference from the run with more modes.
-    for index, (coarse, fine) in enumerate(zip(judged.numbers, whole.numbers, strict=True)):
-        error = IRREGULAR * judged.inertia.mode_convergence[index]
+    for index, (coarse, fine) in enumerate(zip(limited.numbers, whole.numbers, strict=True)):
+        error = IRREGULAR * limited.inertia.mode_convergence[index]
         assert coarse == pytest.approx(fine, rel=error)
     begun.clear()
     waves.impact.cache_clear()
@@ -166,12 +166,12 @@ def test_all_runs_of_an_impact_count_towards_one_limit(monkeypatch: pytest.Monke
     used: list[float] = []
     follow = contact_sequence.impact_history
 
-    def noted(*args: Any, **options: Any) -> ImpactHistory:
+    def recorded(*args: Any, **options: Any) -> ImpactHistory:
         history = follow(*args, **options)
         used.append(history.work)
         return history
 
-    monkeypatch.setattr(contact_sequence, "impact_history", noted)
+    monkeypatch.setattr(contact_sequence, "impact_history", recorded)
     waves.impact.cache_clear()
     best = waves.impact(law, 1e-4)
     whole = sum(used)

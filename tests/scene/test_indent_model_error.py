@@ -44,7 +44,7 @@ def test_model_error_covers_a_plate_that_stretches(edge: str) -> None:
         def excess(force: float) -> float:
             (one,) = indent(scene, force=force)
             local = float(local_indentation(law, one.contact_radius))
-            linear = one.indentation - local  # of a plate without stretching
+            linear = one.indentation - local  # deflection without stretching
             w = brentq(lambda w: w * (1.0 + float(stretching(law.model, w))) - linear, 0.0, linear)
             return local + float(w) - depth
 

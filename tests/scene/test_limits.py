@@ -216,7 +216,7 @@ def test_warning_of_reflections_says_whether_they_return(transits: float, text: 
 
 
 def test_no_warning_of_reflections_if_the_simulation_chose_all_branches() -> None:
-    """The warning said that the model neglects reflections which the branches included."""
+    """An earlier warning stated that the reflections are neglected, which the branches include."""
     tables = {
         "sphere": {"radius": 0.004, "material": "steel"},
         "plate": {"radius": 0.3, "thickness": 0.2, "material": "concrete"},
@@ -307,10 +307,10 @@ def test_deflection_above_half_the_thickness_is_stated() -> None:
         ({"radius": 20.0, "thickness": 6.0, "density": 2500.0}, "contact_time", "may be below 4 H"),
     ],
 )
-def test_rough_results_within_their_error_of_a_limit_are_warned_of(
+def test_results_within_their_error_of_a_limit_have_a_warning(
     plate: dict[str, float], name: str, words: str
 ) -> None:
-    """They were compared without it: there was no warning where the exact result has one."""
+    """An earlier version ignored the error, and gave no warning where the exact result has one."""
     tables = changed(plate=plate, effects={"inertia": False, "non_hertzian_pressure": False})
 
     def rough(speed: float) -> Result:

@@ -46,7 +46,7 @@ def scenes(draw: st.DrawFn, disabled: tuple[str, ...] = ()) -> Scene:
 @pytest.mark.one_version
 @given(scenes(), st.sampled_from(TOLERANCES))
 @settings(max_examples=40)
-def test_small_parts_are_not_subtracted_from_the_whole_plate(scene: Scene, shown: float) -> None:
+def test_law_is_not_a_difference_of_the_whole_plate_and_a_part(scene: Scene, shown: float) -> None:
     """A part of the plate is not subtracted from the whole plate, which would be slower."""
     included = [frozenset[str]()]
     for rtol in TOLERANCES:

@@ -110,7 +110,7 @@ def test_other_keys_are_unchanged() -> None:
 def test_the_bound_covers_the_error_of_the_constant(
     solve_for: str, goal: float, rtol: float | None
 ) -> None:
-    """The constant was accurate to 1e-4: the bound was 2e-12 for an error of 5e-5."""
+    """The constant was accurate to 1e-4; an earlier version stated 2e-12 for an error of 5e-5."""
     wanted = {"restitution": goal, "solve_for": solve_for, "target": "plate"}
     thick = BLOCK["plate"] | {"radius": 0.1, "thickness": 0.1}
     tables = BLOCK | {"plate": thick, "measured": wanted, "effects": {"inertia": False}}
@@ -120,7 +120,7 @@ def test_the_bound_covers_the_error_of_the_constant(
 
 
 def test_a_plate_that_bends_limits_what_a_retardation_time_can_dissipate() -> None:
-    """The message was about a time integration that fails with a retardation time of 7e5 s."""
+    """An earlier message was about a failed time integration for a retardation time of 7e5 s."""
     wanted = {"restitution": 0.05, "solve_for": "retardation_time", "target": "plate"}
     still = BLOCK | {"effects": {"inertia": False}}
     with pytest.raises(SceneError) as caught:
@@ -169,7 +169,7 @@ def test_a_recommended_tolerance_is_met(
 
 
 def test_a_measurement_is_more_accurate_than_the_results() -> None:
-    """The measurement had the tolerance of the results, which its error then exceeded."""
+    """An earlier version gave it the tolerance of the results, which their error then exceeded."""
     scene = measured(restitution=0.2, solve_for="yield_stress", target="plate")
     outcome, finer = (simulate(scene, rtol=rtol) for rtol in (3e-2, 3e-3))
     for result, rtol in ((outcome, 3e-2), (finer, 3e-3)):
@@ -196,18 +196,18 @@ def test_a_rough_search_and_a_full_one_find_the_same_constant(
     assert abs(quick / whole - 1.0) <= bound
 
 
-def test_a_rough_search_refuses_a_restitution_that_no_constant_gives(
+def test_a_rough_search_rejects_a_restitution_that_no_constant_gives(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Bounds on the rough results prove it: no accurate simulation is needed."""
     tolerances = set()
     simulated = Measurement.simulated
 
-    def noted(self: Measurement, value: float | None, within: bool = False) -> Trial:
+    def recorded(self: Measurement, value: float | None, within: bool = False) -> Trial:
         tolerances.add(self.tables["accuracy"]["rtol"])
         return simulated(self, value, within)
 
-    monkeypatch.setattr(Measurement, "simulated", noted)
+    monkeypatch.setattr(Measurement, "simulated", recorded)
     wanted = {"restitution": 0.9, "solve_for": "retardation_time", "target": "plate"}
     thin = BLOCK["plate"] | {"thickness": 0.006}
     scene = read(BLOCK | {"plate": thin, "measured": wanted, "accuracy": {"rtol": 1e-3}})
@@ -223,23 +223,23 @@ PHONE: dict[str, Any] = {
     },
     "impact": {"speed": 1.0},
 }  # fmt: skip
-"""A heavy ball, which thin glass throws back: no constant of the contact dissipates much."""
+"""Thin glass returns most energy to a heavy sphere: no constant of the contact dissipates much."""
 ROUGHLY = {"rtol": 0.1, "outputs": ["restitution"]}
 
 
 @pytest.mark.one_version
-def test_few_modes_refuse_a_restitution_far_below_all_that_a_heavy_ball_may_have(
+def test_few_modes_reject_a_restitution_far_below_the_smallest_of_a_heavy_sphere(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Impacts with constants of all sizes, each with an error bound, confirm the smallest one."""
+    """Impacts with constants of all sizes, each with an error bound, confirm the smallest value."""
     parts = set()
     simulated = Measurement.simulated
 
-    def noted(self: Measurement, value: float | None, within: bool = False) -> Trial:
+    def recorded(self: Measurement, value: float | None, within: bool = False) -> Trial:
         parts.add(self.part)
         return simulated(self, value, within)
 
-    monkeypatch.setattr(Measurement, "simulated", noted)
+    monkeypatch.setattr(Measurement, "simulated", recorded)
     wanted = {"restitution": 0.5, "solve_for": "retardation_time", "target": "plate"}
     with pytest.raises(SceneError, match="smallest restitution that a plate") as error:
         simulate(read(PHONE | {"measured": wanted}))
@@ -253,19 +253,19 @@ def test_few_modes_refuse_a_restitution_far_below_all_that_a_heavy_ball_may_have
 
 @pytest.mark.one_version
 def test_few_modes_find_a_constant_that_accurate_simulations_confirm() -> None:
-    """The restitution of a known constant, simulated with an error bound, returns it."""
-    truth = 3e-6
+    """The constant is found again from the restitution that was simulated with it."""
+    constant = 3e-6
     plate = PHONE["plate"] | {"thickness": 4e-3}
     scene = PHONE | {"sphere": {"radius": 0.005, "material": "steel"}, "plate": plate}
-    goal = simulate(read(scene | {"plate": plate | {"retardation_time": truth}})).restitution
+    goal = simulate(read(scene | {"plate": plate | {"retardation_time": constant}})).restitution
     wanted = {"restitution": goal, "solve_for": "retardation_time", "target": "plate"}
     fit = solved(read(scene | {"measured": wanted}))
-    assert fit == pytest.approx(truth, rel=0.1)
+    assert fit == pytest.approx(constant, rel=0.1)
 
 
 @pytest.mark.one_version
-def test_a_face_that_meets_the_sphere_again_at_once_has_a_speed() -> None:
-    """At separation face and sphere move alike: their relative speed grows with the time since."""
+def test_meeting_speed_is_continuous_at_separation() -> None:
+    """At separation face and sphere have the same speed; their relative speed then grows."""
     glass = PHONE["plate"] | {"retardation_time": 3e-6}
     run = simulate(read(PHONE | {"plate": glass, "accuracy": ROUGHLY})).dynamics
     assert run is not None
@@ -281,7 +281,7 @@ def test_a_face_that_meets_the_sphere_again_at_once_has_a_speed() -> None:
 def test_a_lossy_sphere_limits_the_restitution_that_the_plate_can_explain(
     solve_for: str, given: float
 ) -> None:
-    """The message named a range of the constant up to 1e21 Pa, after more than two seconds."""
+    """An earlier message stated a range up to 1e21 Pa, after more than two seconds."""
     sphere = {"radius": 0.01, "material": "steel", solve_for: given}
     still = BLOCK | {"sphere": sphere, "effects": {"inertia": False}}
     most = simulate(read(still)).restitution
@@ -297,10 +297,10 @@ def test_a_lossy_sphere_limits_the_restitution_that_the_plate_can_explain(
 
 @pytest.mark.one_version
 @pytest.mark.parametrize("speed", [1e-2, 2e-3, 1.08e-3])
-def test_the_weight_of_the_sphere_acts_on_a_block_too(speed: float) -> None:
+def test_measurement_on_a_block_includes_the_weight_of_the_sphere(speed: float) -> None:
     """A measurement without weight gave up to twice the retardation time, with a bound of 1e-4.
 
-    The witness integrates m z'' = m g - P with P = k (z^(3/2) + A 3/2 z^(1/2) z').
+    The reference value is from m z'' = m g - P with P = k (z^(3/2) + A 3/2 z^(1/2) z').
     """
     mass, k, time = 4 / 3 * math.pi * 0.01**3 * 7850.0, 4 / 3 * (70e9 / 0.91) * 0.1, 1e-5
     depth = (mass * speed**2 / k) ** 0.4
@@ -324,7 +324,7 @@ def test_the_weight_of_the_sphere_acts_on_a_block_too(speed: float) -> None:
 
 
 @pytest.mark.one_version
-def test_several_values_of_several_contacts_are_announced() -> None:
+def test_warning_if_several_values_of_the_constant_give_the_restitution() -> None:
     """Yield stresses of 16.3 and 6.4 MPa have one restitution, and forces that differ by 23 %."""
     plate = {
         "radius": 0.1336, "thickness": 4.9146e-3, "edge": "clamped", "youngs_modulus": 9e9,

@@ -311,7 +311,7 @@ def test_history_uses_the_full_method() -> None:
     np.testing.assert_array_equal(history, simulate(load(PAPER)).history(51))
 
 
-def test_check_bounds_command(capsys: Captured, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_command_check_error_bounds(capsys: Captured, monkeypatch: pytest.MonkeyPatch) -> None:
     assert main(["check", "error-bounds", "-n", "3", "--json", "-"]) == 0
     rows = json.loads(capsys.readouterr().out)
     assert sum(row["runs"] for row in rows) == 3 * len(bounds.TOLERANCES)

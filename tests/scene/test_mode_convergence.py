@@ -29,7 +29,7 @@ BLOCK: dict[str, dict[str, Any]] = {
     "plate": {"radius": 0.06, "thickness": 0.03, "material": "concrete"},
     "impact": {"speed": 1.0},
 }
-"""A contact that is shorter than the modes need to converge: waves return during it."""
+"""Waves return during the contact, and the results converge slowly with the number of modes."""
 
 
 @lru_cache
@@ -46,13 +46,13 @@ def stated(modes: int, output: Output) -> float:
 
 
 def limit_of_contact_time() -> float:
-    """Return the contact time [s] of all modes, if its error falls as the root of their number."""
+    """Return the limit of the contact time [s], if its error is as 1/sqrt(number of modes)."""
     coarse, fine = followed(512).contact_time, followed(1024).contact_time
     return fine + (fine - coarse) / (math.sqrt(2.0) - 1.0)
 
 
 def test_contact_time_converges_as_the_square_root_of_the_number_of_modes() -> None:
-    """A mode lags the force, which ends as t^(3/2), by omega^(-3/2); omega grows as k."""
+    """The force ends as t^(3/2): the delay of a mode is as omega^(-3/2), and omega as k."""
     times = [followed(n).contact_time for n in (256, 512, 1024)]
     ratio = (times[1] - times[0]) / (times[2] - times[1])
     assert ratio == pytest.approx(math.sqrt(2.0), rel=0.05)
@@ -86,8 +86,8 @@ def test_error_of_the_contact_time_covers_a_ripple_that_vanishes_at_the_end(mode
     assert abs(run.contact_time / finer.contact_time - 1.0) <= stated <= 4e-4
 
 
-def test_the_end_of_a_viscoelastic_contact_is_no_ripple_of_its_radius() -> None:
-    """It ends with nearly its largest radius, in two simulations at slightly different times."""
+def test_the_end_of_a_viscoelastic_contact_is_not_counted_as_a_ripple_of_its_radius() -> None:
+    """The radius is nearly the largest at the end, whose time differs slightly between two runs."""
     scene = {
         "sphere": {"radius": 0.0127391, "density": 7850},
         "plate": {
@@ -107,7 +107,7 @@ def test_the_end_of_a_viscoelastic_contact_is_no_ripple_of_its_radius() -> None:
 
 
 def test_error_covers_what_one_more_mode_changes() -> None:
-    """The waves that return to the axis alternate with the number of modes, even or odd.
+    """The waves that return to the axis depend on whether the number of modes is even or odd.
 
     Forces with 56 and 112 modes differ by a third of what the 113th mode changes.
     """
@@ -149,7 +149,7 @@ def test_error_covers_a_ripple_whose_maxima_agree() -> None:
 
 
 def run(rtol: float, output: Output) -> Result | None:
-    """Return the impact with all branches to a tolerance of one output; None if out of reach."""
+    """Return the impact with all branches to a tolerance of one output; None if it is rejected."""
     accuracy = {"rtol": rtol, "outputs": [output]}
     try:
         return simulate(read(BLOCK | {"inertia": {"branches": "all"}, "accuracy": accuracy}))
@@ -182,7 +182,7 @@ def test_a_small_last_change_does_not_hide_the_change_before_it() -> None:
 
 
 def test_without_a_tolerance_the_modes_are_as_accurate_as_the_model_requires() -> None:
-    """More modes change no result by more than the bound, or by much beside stretching."""
+    """More modes change no result by more than its bound or 2 % of its model error."""
     tables = tomllib.loads((EXAMPLES / "soft_layer.toml").read_text())
     result = simulate(read(tables))
     finer = simulate(read(tables | {"inertia": {"modes": 120, "branches": "all"}}))
@@ -191,7 +191,7 @@ def test_without_a_tolerance_the_modes_are_as_accurate_as_the_model_requires() -
         assert change <= min(result.accuracy.bound, 0.02 * result.model_errors[name])
 
 
-def test_runs_with_other_contacts_do_not_show_a_tolerance_out_of_reach() -> None:
+def test_runs_with_other_contacts_do_not_reject_a_tolerance() -> None:
     """With 11, 23 and 46 modes there are 8, 7 and 6 contacts. Branches may split the first one."""
     scene = {
         "sphere": {"radius": 0.0158, "mass": 0.13, "material": "steel"},
@@ -234,7 +234,7 @@ def test_runs_with_other_contacts_are_compared_contact_by_contact() -> None:
         assert error <= details.error((name,)) <= 8.0 * change
 
 
-def test_the_first_contact_is_known_better_than_the_ones_after_it() -> None:
+def test_the_first_contact_has_a_smaller_error_than_later_ones() -> None:
     """No later contact changes its duration: a finer run confirms the smaller error."""
     law = selected_effects(read(PHONE))[1].law
     coarse, run, finer = (
@@ -247,8 +247,8 @@ def test_the_first_contact_is_known_better_than_the_ones_after_it() -> None:
     assert stated < 0.5 * details.error(("restitution",))
 
 
-def test_a_ripple_of_unloading_leaves_the_largest_force_of_cast_shot_known() -> None:
-    """The shot dents the sheet: waves change its unloading, and not its largest force."""
+def test_a_ripple_of_unloading_does_not_increase_the_error_of_the_largest_force() -> None:
+    """Cast shot dents the sheet: waves change the unloading, but not the largest force."""
     scene = {
         "sphere": {"radius": 0.21e-3, "material": "steel"},
         "plate": {
@@ -265,10 +265,10 @@ def test_a_ripple_of_unloading_leaves_the_largest_force_of_cast_shot_known() -> 
     assert abs(run.max_force / finer.max_force - 1.0) <= stated <= 1e-2
 
 
-def test_a_tolerance_is_out_of_reach_only_by_runs_that_show_it(
+def test_a_tolerance_is_rejected_only_if_runs_show_that_it_cannot_be_met(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Neither runs with other contacts nor those of modes slower than the contact show it."""
+    """Neither runs with other contacts nor runs with modes slower than the contact show this."""
     result = followed(8)
     run = result.dynamics
     assert run is not None
@@ -286,7 +286,7 @@ def test_a_tolerance_is_out_of_reach_only_by_runs_that_show_it(
 
 
 def test_three_runs_show_how_slowly_an_error_decreases(monkeypatch: pytest.MonkeyPatch) -> None:
-    """One more doubling of an error that fell by factors of 1.6 does not make it a third."""
+    """If doublings reduce an error by factors of 1.6, one more does not reduce it to a third."""
     run = followed(8).dynamics
     assert run is not None
     law, reach = run.law, Reach(run.law, ("restitution",), 1e-3)
@@ -328,7 +328,7 @@ LEAD: dict[str, Any] = {
 
 
 @pytest.mark.parametrize("scene", [COMPOSITE, LEAD])
-def test_a_tolerance_out_of_reach_names_one_that_is_met(
+def test_a_tolerance_that_cannot_be_met_is_rejected_with_one_that_can(
     scene: dict[str, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The runs end before the limits of modes; another tolerance changes the omitted effects."""
@@ -362,7 +362,7 @@ def test_the_largest_change_nearby_is_that_of_scipy(size: int) -> None:
 def test_one_run_beyond_the_limits_is_made_if_the_tolerance_is_near(
     rtol: float, runs: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A tolerance missed by less than a factor of 5 is met, or refused after one more run."""
+    """If the error is below 5 times the tolerance, one more run meets it, or it is rejected."""
     scene = read(tomllib.loads((EXAMPLES / "glass_pane.toml").read_text()))
     monkeypatch.setattr("derivation.scene.dynamic.mode_count.WORK", 0.0)
     waves.impact.cache_clear()
@@ -383,7 +383,7 @@ def test_one_run_beyond_the_limits_is_made_if_the_tolerance_is_near(
     waves.impact.cache_clear()
 
 
-def test_without_a_tolerance_a_dear_run_is_left_out_and_the_bound_holds() -> None:
+def test_without_a_tolerance_a_slow_run_is_omitted_and_the_bound_is_valid() -> None:
     """48,644 modes take seconds; a fraction of them leaves an error of at most 0.2 %."""
     scene = read({
         "sphere": {"radius": 0.002, "material": "granite"},

@@ -126,9 +126,7 @@ def test_half_space_calls_only_bounds_and_the_closed_form(calls: set[str]) -> No
         "non_hertzian_pressure",
         *auto,
     }
-    assert (
-        calls <= BOUNDS | MODEL_ERRORS | ZEROS
-    )  # the curvature by a support is a sum over a few modes
+    assert calls <= BOUNDS | MODEL_ERRORS | ZEROS  # the curvature by a support needs a few modes
 
 
 def test_functions_of_omitted_effects_are_not_called(monkeypatch: pytest.MonkeyPatch) -> None:

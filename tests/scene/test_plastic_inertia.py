@@ -41,7 +41,7 @@ def largest_difference(result: Result, reference: Result) -> float:
 
 
 def test_bound_on_omitted_inertia_covers_the_plastic_loss() -> None:
-    """The bound includes the plastic loss; without it, it was 5.7e-4 for a change of 6.1e-4."""
+    """Without the plastic loss, the bound would be 5.7e-4 for a change of 6.1e-4."""
     others = dict.fromkeys(("bending", "finite_thickness", "edge", "non_hertzian_pressure"), True)
     result = simulate(read(DISC | {"effects": others | {"inertia": "auto"}}), rtol=0.01)
     assert result.energy_balance is not None
@@ -51,7 +51,7 @@ def test_bound_on_omitted_inertia_covers_the_plastic_loss() -> None:
 
 
 def test_bound_on_omitted_branches_covers_the_plastic_loss() -> None:
-    """The bound includes the plastic loss; without it, it was 1.3e-6 for a change of 2.0e-6."""
+    """Without the plastic loss, the bound would be 1.3e-6 for a change of 2.0e-6."""
     result, reference = (
         simulate(read(BLOCK | {"effects": {"inertia": True}, "inertia": {"branches": branches}}))
         for branches in ("A0", "all")
@@ -102,8 +102,8 @@ SHARP = Model(
 """Fast modes bend the plate more sharply than the dented contact: the approach becomes negative."""
 
 
-def test_a_contact_ends_with_its_force_and_not_with_its_approach() -> None:
-    """It ended while its force was largest; the energy-balance error was 1.2e3."""
+def test_a_contact_ends_when_its_force_is_zero_even_if_the_approach_is_negative() -> None:
+    """An earlier version ended it at its largest force, with an energy-balance error of 1.2e3."""
     result, fewer = (
         waves.impact(
             ContactLaw(model, inertia_check.selectable_effects(model) - {"non_hertzian_pressure"}),
@@ -139,7 +139,7 @@ def test_error_of_a_result_in_which_two_runs_agree_by_chance() -> None:
     assert 4e-5 < abs(result.contact_time / finer.contact_time - 1.0) < by_modes < 4e-3
 
 
-def test_stiff_unloading_is_not_blamed_on_the_curvature_of_the_plate() -> None:
+def test_message_on_stiff_unloading_does_not_mention_the_plate_curvature() -> None:
     scene = {
         "sphere": {"radius": 0.00378, "mass": 7.72e-4},
         "plate": {"radius": 0.00425, "thickness": 7.31e-4, "youngs_modulus": 2.58e9,
@@ -147,26 +147,26 @@ def test_stiff_unloading_is_not_blamed_on_the_curvature_of_the_plate() -> None:
         "impact": {"speed": 0.01266},
         "inertia": {"modes": 60, "branches": "all"},
     }  # fmt: skip
-    with pytest.raises(SceneError, match="unloads more stiffly") as refused:
+    with pytest.raises(SceneError, match="unloads more stiffly") as rejected:
         simulate(read(scene))
-    assert 'set inertia.modes to fewer than 60, or inertia.branches to "A0"' in str(refused.value)
+    assert 'set inertia.modes to fewer than 60, or inertia.branches to "A0"' in str(rejected.value)
     mended = simulate(read(scene | {"inertia": {"modes": 60, "branches": "A0"}}))
     few = simulate(read(scene | {"inertia": {"modes": 17, "branches": "A0"}}))
     assert mended.complete
     assert largest_difference(mended, few) < 1e-3
 
 
-def test_stiff_unloading_with_the_lowest_branch_only_asks_for_fewer_modes() -> None:
-    """The message also named the branch A0, which was the only one already."""
+def test_message_on_stiff_unloading_with_the_lowest_branch_recommends_fewer_modes() -> None:
+    """An earlier message also recommended the branch A0, which was the only one."""
     scene = {
         "sphere": {"radius": 0.0125, "material": "ice"},
         "plate": {"radius": 0.1, "thickness": 0.002, "material": "PMMA", "edge": "clamped",
                   "yield_stress": 1e6},
         "impact": {"speed": 1.0},
     }  # fmt: skip
-    with pytest.raises(SceneError, match="unloads more stiffly") as refused:
+    with pytest.raises(SceneError, match="unloads more stiffly") as rejected:
         simulate(read(scene | {"inertia": {"branches": "A0"}}))
-    stated = re.search(r"set inertia\.modes to fewer than (\d+)$", str(refused.value))
+    stated = re.search(r"set inertia\.modes to fewer than (\d+)$", str(rejected.value))
     assert stated
     fewer = int(stated[1]) // 2
     assert simulate(read(scene | {"inertia": {"branches": "A0", "modes": fewer}})).complete

@@ -24,7 +24,7 @@ pytestmark = pytest.mark.one_version
 EXAMPLES = Path(derivation.scene.__file__).parent / "examples"
 EDGES = ("paper", "simply-supported", "clamped")
 DATA = json.loads((measurements() / "elastodynamics.json").read_text())
-JUDGED = tuple(name for name in OUTPUTS if name != "max_contact_radius")
+COMPARED = tuple(name for name in OUTPUTS if name != "max_contact_radius")
 """Results that are compared: finite elements give the contact radius only to a node."""
 
 
@@ -73,7 +73,7 @@ SIMULATED = [row for row in DATA["impacts"] if row not in REJECTED]
 def test_recorded_finite_elements_are_within_the_stated_errors(row: Mapping[str, Any]) -> None:
     """Differences are at most the sum of bound, model error and finite-element error."""
     program = row["program"]
-    for name in JUDGED:
+    for name in COMPARED:
         off = abs(program["values"][name] / row["elements"][name] - 1.0)
         assert off <= program["bound"] + program["model_error"] + row["errors"][name]
 
@@ -106,7 +106,7 @@ def test_program_still_agrees_with_the_record(number: int) -> None:
     row = SIMULATED[number]
     effects = {"spherical_profile": row["spherical_profile"], "inertia": True}
     result = simulate(read({**row["scene"], "effects": effects}))
-    for name in JUDGED:
+    for name in COMPARED:
         value = row["program"]["values"][name]
         assert getattr(result, name) == pytest.approx(value, rel=max(1e-6, row["program"]["bound"]))
 

@@ -28,7 +28,7 @@ from derivation.scene.result import Result
 Tables = dict[str, dict[str, Any]]
 
 
-def refused_from(make: Callable[[float], Any], fine: float, bad: float) -> tuple[float, str]:
+def rejected_from(make: Callable[[float], Any], fine: float, bad: float) -> tuple[float, str]:
     """Return the limit value from which a scene is rejected (within 1e-6), and the message."""
     make(fine)
     text = ""
@@ -39,7 +39,7 @@ def refused_from(make: Callable[[float], Any], fine: float, bad: float) -> tuple
         except SceneError as error:
             bad, text = middle, str(error)
         else:
-            assert text, "expected a refusal"
+            assert text, "expected a rejection"
             fine = middle
     return bad, text
 
@@ -71,7 +71,7 @@ def refused_from(make: Callable[[float], Any], fine: float, bad: float) -> tuple
 def test_contact_radii_above_the_limit_are_rejected(tables: Tables, limit: float) -> None:
     """The limit is min(b, R) or a little less; three thicknesses for non-Hertzian pressure."""
     given = read(changed(**tables))
-    actual, text = refused_from(lambda a: indent(given, contact_radius=a), 0.5 * limit, 2 * limit)
+    actual, text = rejected_from(lambda a: indent(given, contact_radius=a), 0.5 * limit, 2 * limit)
     assert actual == pytest.approx(limit, rel=3e-6)
     assert f"{limit:.6g} m" in text
     assert f"{actual:.6g} m" in text
@@ -84,7 +84,7 @@ def test_contact_without_central_pressure_is_rejected() -> None:
         "effects": {"spherical_profile": True, "non_hertzian_pressure": True},
     }
     given = read(changed(**tables))
-    a, text = refused_from(lambda a: indent(given, contact_radius=a), 0.02, 0.07)
+    a, text = rejected_from(lambda a: indent(given, contact_radius=a), 0.02, 0.07)
     assert 1.5 < a / 0.02 < 3.0
     assert f"{a:.6g} m" in text
     rows = indent(given, contact_radius=[0.01, 0.999 * a, (1 - 2e-6) * a])
@@ -116,7 +116,7 @@ def test_impacts_above_the_stated_speed_are_rejected(gravity: float | None, solv
             )
         )
 
-    v, text = refused_from(run, 12.0, 45.0)
+    v, text = rejected_from(run, 12.0, 45.0)
     assert text.startswith("impact.speed: ")
     assert float(text.split("less than ")[1].split()[0]) == pytest.approx(v, rel=2e-5)
     limit = 0.95 * 0.13 if solved else 0.13
@@ -173,7 +173,7 @@ EDGES = {"supported": "simply-supported", "clamped": "clamped"}
 
 
 def test_remainder_of_the_edge_is_the_measured_one_or_rejected() -> None:
-    refused = 0
+    rejected = 0
     for row in REMAINDER:
         parts = ("relative_error", "lower_degree", "fewer_layers")
         nu, size = row["nu"], sum(abs(row[part]) for part in parts)
@@ -184,10 +184,10 @@ def test_remainder_of_the_edge_is_the_measured_one_or_rejected() -> None:
         if size < 0.0099:
             assert edge_remainder(m, row["a_over_b"]) == pytest.approx(size, rel=0.9)
         elif size > 0.01:
-            refused += 1
+            rejected += 1
             with pytest.raises(SceneError, match=rf"^plate\.edge: .*{100 * size:.2g} %"):
                 edge_remainder(m, row["a_over_b"])
-    assert refused > 5
+    assert rejected > 5
 
 
 def test_model_error_of_the_edge_is_stated_or_rejected() -> None:

@@ -1,4 +1,4 @@
-"""Errors and digits of single results, also of those that the tolerance does not apply to."""
+"""Errors and digits of single results, including those to which no tolerance applies."""
 
 import dataclasses
 import math
@@ -25,7 +25,7 @@ def scene(plate: dict[str, Any], speed: float = 1.0, **tables: Any) -> Any:
 @pytest.mark.parametrize("requested", OUTPUTS)
 @pytest.mark.parametrize("rtol", [3e-3, 0.3])
 def test_other_outputs_have_bounds_of_their_own(requested: str, rtol: float) -> None:
-    """Restitution alone is exact on an elastic plate, and the force was shown with 12 digits."""
+    """An earlier version showed 12 digits of the force, because the restitution is exact."""
     plate, accuracy = {"thickness": 0.004}, {"rtol": rtol, "outputs": [requested]}
     reference, result = simulate(scene(plate)), simulate(scene(plate, accuracy=accuracy))
     for name in (*OUTPUTS, "max_pressure", "max_tensile_stress"):
@@ -80,7 +80,7 @@ def test_limits_are_compared_within_the_error_of_stress_and_pressure(requested: 
 def test_error_of_the_dent_covers_omitted_effects_near_the_onset_of_yield(
     thickness: float,
 ) -> None:
-    """The dent grows as the square of the distance from the onset: 1.6 where 0.035 was stated."""
+    """The dent is as the squared distance from the onset; an earlier bound was 0.035, not 1.6."""
     plate = {"thickness": thickness, "radius": 4.0 * thickness}
     elastic = simulate(scene(plate))
     plate["yield_stress"] = elastic.max_pressure / 1.6 / 1.02
@@ -93,8 +93,8 @@ def test_error_of_the_dent_covers_omitted_effects_near_the_onset_of_yield(
 
 
 @pytest.mark.parametrize("beyond", [1.01, 1.03, 1.045])
-def test_errors_of_pressure_and_dent_cover_a_yield_that_was_omitted(beyond: float) -> None:
-    """The pressure exceeded that of yield by 3 % where 1.7 % was stated, and the dent was exact."""
+def test_errors_of_pressure_and_dent_cover_omitted_plasticity(beyond: float) -> None:
+    """An earlier version stated 1.7 % for an error of 3 % of the pressure, 0 for the dent."""
     plate = {"radius": 0.8, "thickness": 0.009, "youngs_modulus": 40e9, "poissons_ratio": 0.44}
     tables: dict[str, Any] = {
         "sphere": {"radius": 0.03, "density": 180.0},

@@ -1,4 +1,4 @@
-"""Simulations with few modes refuse a measured restitution only if no constant gives it."""
+"""Searches with few modes reject a measured restitution only if no constant gives it."""
 
 import re
 from dataclasses import replace
@@ -31,7 +31,7 @@ MARBLE: dict[str, dict[str, Any]] = {
 }  # fmt: skip
 
 
-def wanted(scene: Any, factor: float) -> tuple[Any, float]:
+def with_restitution(scene: Any, factor: float) -> tuple[Any, float]:
     """Return a scene with a multiple of the restitution without loss, and this restitution."""
     most = simulate(read(scene), rtol=3e-3).restitution
     measured = {"restitution": factor * most, "solve_for": "yield_stress", "target": "plate"}
@@ -39,19 +39,19 @@ def wanted(scene: Any, factor: float) -> tuple[Any, float]:
 
 
 @pytest.mark.parametrize("factor", [1.06, 1.5, 6.0])
-def test_a_restitution_above_that_without_loss_is_refused_by_few_modes(
+def test_a_restitution_above_that_without_loss_is_rejected_with_few_modes(
     factor: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The message names the restitution that an accurate simulation has."""
-    scene, most = wanted(THIN, factor)
+    scene, most = with_restitution(THIN, factor)
     parts = set[float]()
     simulated = Measurement.simulated
 
-    def noted(self: Measurement, value: float | None, within: bool = False) -> Trial:
+    def recorded(self: Measurement, value: float | None, within: bool = False) -> Trial:
         parts.add(self.part)
         return simulated(self, value, within)
 
-    monkeypatch.setattr(Measurement, "simulated", noted)
+    monkeypatch.setattr(Measurement, "simulated", recorded)
     with pytest.raises(SceneError, match="estimated with few modes") as error:
         simulate(scene)
     assert parts == {PART, HALF}
@@ -63,7 +63,7 @@ def test_a_restitution_above_that_without_loss_is_refused_by_few_modes(
 @pytest.mark.parametrize("factor", [0.97, 0.6])
 def test_a_restitution_below_that_without_loss_is_found(factor: float) -> None:
     """With few modes the restitution without loss is a third larger."""
-    scene, most = wanted(MARBLE, factor)
+    scene, most = with_restitution(MARBLE, factor)
     few = Measurement(MARBLE, "yield_stress", 0.5, PART).to(0.1).simulated(None)
     assert few.restitution > 1.3 * most
     result = simulate(scene)
@@ -84,7 +84,7 @@ def test_few_modes_do_not_underestimate_the_restitution(thickness: float, edge: 
 def test_an_incomplete_measurement_is_an_error_of_the_scene(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Its restitution is unknown: the search stopped with an error about NaN."""
+    """Its restitution is unknown; an earlier version stopped with an error about NaN."""
     measurement = Measurement(THIN, "yield_stress", 0.05).to(0.1)
     assert measurement.simulated(None).restitution < 0.1
     monkeypatch.setattr(contact_sequence, "CONTACTS", 1)
@@ -96,7 +96,7 @@ def test_an_incomplete_measurement_is_an_error_of_the_scene(
 
 
 def test_an_error_of_the_measurement_names_the_speed_of_the_measurement() -> None:
-    """The message named a lower impact.speed, which did not change the measurement."""
+    """An earlier message recommended a lower impact.speed, which did not change the measurement."""
     wide = {
         "sphere": {"radius": 0.0213, "youngs_modulus": 1e8, "poissons_ratio": 0.45, "mass": 0.0459},
         "plate": {"radius": 0.04, "thickness": 0.0025, "material": "steel"},
@@ -120,7 +120,7 @@ GOLF: dict[str, dict[str, Any]] = {
 
 
 @pytest.mark.parametrize("part", [0.9, 0.6, 0.35, 0.2])
-def test_a_contact_that_yields_is_at_most_as_wide_as_an_elastic_one_of_the_speed_over_e(
+def test_a_plastic_contact_is_at_most_as_wide_as_an_elastic_one_at_speed_over_restitution(
     part: float,
 ) -> None:
     block = {"radius": 1.0, "thickness": 2.0, "material": "steel"}
@@ -133,8 +133,8 @@ def test_a_contact_that_yields_is_at_most_as_wide_as_an_elastic_one_of_the_speed
     assert 0.9 < yielding.max_contact_radius / elastic.max_contact_radius < 1.0
 
 
-def test_a_named_speed_of_the_measurement_is_low_enough_for_its_restitution() -> None:
-    """At the speed that is low enough without yield, the contact was too wide after yield.
+def test_recommended_speed_of_the_measurement_is_low_enough_for_its_restitution() -> None:
+    """An earlier version recommended a speed at which the contact was too wide after yield.
 
     The search then makes shorter steps where the contact would be too wide.
     """
@@ -153,7 +153,7 @@ def test_a_named_speed_of_the_measurement_is_low_enough_for_its_restitution() ->
 
 
 def test_a_restitution_just_below_that_without_loss_determines_the_constant() -> None:
-    """The rough search found a plate that does not yield: the error was infinite."""
+    """An earlier rough search found a plate that does not yield, with an infinite error."""
     most = simulate(read(MARBLE), rtol=1e-3).restitution
     near = {"restitution": 0.991 * most, "solve_for": "yield_stress", "target": "plate"}
     result = simulate(read(MARBLE | {"measured": near}), rtol=1e-2)
@@ -161,7 +161,7 @@ def test_a_restitution_just_below_that_without_loss_determines_the_constant() ->
 
 
 def test_few_modes_find_a_constant_that_hardly_reduces_the_restitution() -> None:
-    """One that was found too large by a factor of 5 required a second, accurate search."""
+    """An earlier version found it too large by a factor of 5, which required a second search."""
     most = simulate(read(MARBLE), rtol=1e-3).restitution
     near = Measurement(MARBLE, "yield_stress", 0.99 * most)
     found = rough_value(near.to(0.1))
@@ -169,7 +169,7 @@ def test_few_modes_find_a_constant_that_hardly_reduces_the_restitution() -> None
 
 
 def test_a_retardation_time_that_never_reduces_the_restitution_is_no_solution() -> None:
-    """The message named a smallest restitution above that without a retardation time."""
+    """An earlier message stated a smallest restitution above that without a retardation time."""
     phone = {
         "sphere": {"radius": 0.01585, "mass": 0.13, "material": "steel"},
         "plate": {"radius": 0.03538, "thickness": 0.00106, "material": "phone glass"},

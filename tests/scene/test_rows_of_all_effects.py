@@ -79,7 +79,7 @@ def studies(draw: st.DrawFn) -> Study:
         if draw(st.integers(0, 9)) == 0:
             columns[key][draw(st.integers(0, ROWS - 1))] = draw(st.sampled_from(EXTREME))
     rtol = draw(st.sampled_from(TOLERANCES))
-    if rtol is not None and draw(st.booleans()):  # in the scene
+    if rtol is not None and draw(st.booleans()):  # as a key of the scene
         outputs = draw(st.lists(st.sampled_from(OUTPUTS), min_size=1, max_size=2, unique=True))
         data["accuracy"] = {"rtol": rtol, "outputs": outputs}
         rtol = None

@@ -137,7 +137,7 @@ def test_several_problems_are_listed_together(tmp_path: Path) -> None:
         assert sum(line.startswith(f"  - {key}: ") for line in lines) == 1
 
 
-def test_file_that_cannot_be_decoded(tmp_path: Path) -> None:
+def test_file_that_cannot_be_decoded_gives_a_message(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match="No such file"):
         load(tmp_path / "absent.toml")
     with pytest.raises(SceneError, match="not a file"):
@@ -147,14 +147,14 @@ def test_file_that_cannot_be_decoded(tmp_path: Path) -> None:
         load(tmp_path / "bytes.toml")
 
 
-def test_unreadable_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_unreadable_file_gives_a_message(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "scene.toml"
     path.write_text(GOOD)
 
-    def refuse(path: Path, *_: object) -> bytes:
+    def reject(path: Path, *_: object) -> bytes:
         raise PermissionError(13, "Permission denied", str(path))
 
-    monkeypatch.setattr("derivation.scene.input.toml_file.read_file", refuse)
+    monkeypatch.setattr("derivation.scene.input.toml_file.read_file", reject)
     with pytest.raises(SceneError, match=r"Permission denied"):
         load(path)
 
@@ -250,7 +250,7 @@ def test_data_without_tables_are_rejected(data: Any) -> None:
 def test_damaged_scene_raises_a_scene_error(tmp_path: Path) -> None:
     """A randomly edited scene either loads or raises a SceneError."""
     chance = random.Random(7)
-    text, refused = GOOD, 0
+    text, rejected = GOOD, 0
     path = tmp_path / "scene.toml"
     for _ in range(400):
         index = chance.randrange(len(text))
@@ -258,8 +258,8 @@ def test_damaged_scene_raises_a_scene_error(tmp_path: Path) -> None:
         try:
             load(path)
         except SceneError:
-            refused += 1
-    assert 200 < refused < 400
+            rejected += 1
+    assert 200 < rejected < 400
 
 
 def test_schema_describes_every_key_and_choice() -> None:

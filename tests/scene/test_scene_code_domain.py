@@ -19,7 +19,7 @@ SLENDER: dict[str, Any] = {
 
 
 def test_code_ends_where_the_indentation_no_longer_grows() -> None:
-    """The code was that of the whole law, whose inverse is not unique; it was rejected."""
+    """An earlier version used the whole law, whose inverse is not unique, and rejected its code."""
     names: dict[str, Any] = {}
     exec(scene_code(read(SLENDER)), names)
     end = names["MAX_INDENTATION"]
@@ -31,7 +31,7 @@ def test_code_ends_where_the_indentation_no_longer_grows() -> None:
 
 
 def test_smallest_indentation_gives_no_warning(recwarn: Any) -> None:
-    """The contact radius at the smallest number was 0, after a division by zero."""
+    """An earlier version gave a contact radius of 0 there, after a division by zero."""
     names: dict[str, Any] = {}
     exec(scene_code(read(SLENDER)), names)
     smallest = np.array([5e-324, 1e-310])

@@ -47,7 +47,7 @@ def test_echo_decreases_as_the_root_of_the_number_of_modes() -> None:
     assert echoes[0] / echoes[1] == pytest.approx(2.0, rel=0.1)
 
 
-def test_without_retardation_or_echo_there_is_none() -> None:
+def test_error_is_zero_without_retardation_or_echo() -> None:
     found = dynamics(struck(LONG))
     assert found.inertia.echo_error > 0.01
     history, law, a = found.impact_history, found.law, found.max_contact_radius
@@ -65,8 +65,8 @@ def dynamics(result: Result) -> Any:
     return result.dynamics
 
 
-def test_echoes_that_no_number_of_modes_reduces_enough_end_a_simulation_early() -> None:
-    """The force has the only error that decreases slowly; a named tolerance is met."""
+def test_simulation_stops_early_if_more_modes_do_not_reduce_the_echo_enough() -> None:
+    """Only the error of the force decreases slowly; the recommended tolerance can be met."""
     marble = {
         "sphere": {"radius": 0.008, "material": "glass"},
         "plate": {"radius": 0.0505, "thickness": 0.0061, "youngs_modulus": 60e9,
@@ -82,5 +82,5 @@ def test_echoes_that_no_number_of_modes_reduces_enough_end_a_simulation_early() 
     named = float(str(error.value).partition("such as ")[2].split()[0])
     met = simulate(read(marble), rtol=named)
     assert met.accuracy.bound <= named < 4e-3
-    # Results that have converged long before do not end the simulation.
+    # Results that converged earlier do not stop the simulation.
     assert dynamics(met).inertia.modes > 100

@@ -1,4 +1,4 @@
-"""Impacts and static contacts: results, history, units, extremes, refusals, examples."""
+"""Impacts and static contacts: results, history, units, extremes, rejections, examples."""
 
 import json
 import math

@@ -181,7 +181,7 @@ def test_tolerance_is_rejected_if_omitted_effects_have_no_bound() -> None:
 def test_omitted_effects_change_the_pressure_more_than_the_bound(
     sphere: float, plate: dict[str, Any], speed: float
 ) -> None:
-    """By the curvature of the plate under the contact, by up to 27 % more."""
+    """The reason is the curvature of the plate under the contact; the difference is up to 27 %."""
     elastic = {"youngs_modulus": 4.5e8, "poissons_ratio": 0.25}
     tables = {"sphere": BALL | {"radius": sphere}, "plate": plate | elastic}
     given = scene(**tables, impact={"speed": speed}, effects={"inertia": False})

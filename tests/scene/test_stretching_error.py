@@ -130,7 +130,7 @@ def simulations(name: str) -> tuple[dict[str, float], dict[str, float]]:
 @pytest.mark.one_version
 @pytest.mark.parametrize("name", SCENES)
 def test_error_covers_the_difference_between_a_linear_and_a_stretched_plate(name: str) -> None:
-    """Without `TIME` or `PEAK` the damped plate fails, without `END` the light one."""
+    """The damped plate requires the error terms `TIME` and `PEAK`, the light one `END`."""
     result, (linear, stretched) = moving(name), simulations(name)
     assert result.dynamics is not None
     law = result.effects.law
@@ -155,7 +155,7 @@ def test_first_contact_may_end_at_a_low_minimum_of_its_force(size: float, expect
 
 @pytest.mark.parametrize("speed", [0.5, 1.5])
 def test_error_of_a_quasi_static_plate_covers_that_of_a_spring(speed: float) -> None:
-    """A Hertz contact and a spring that stiffens, solved by the balance of energy."""
+    """The reference is a Hertz contact and a stiffening spring, solved by the energy balance."""
     scene = SCENES["heavy sphere on a supported plate"] | {"impact": {"speed": speed}}
     result = simulated(scene, inertia=False, non_hertzian_pressure=False)
     model = result.model

@@ -66,7 +66,7 @@ def test_printed_energies_are_the_kinetic_energy_and_the_work_of_the_weight(spee
 
 
 def test_a_small_energy_of_the_sphere_has_digits_of_its_own() -> None:
-    """It was "below 10 %" of a sphere that rebounds at 0.067 of its speed, known to a fifth."""
+    """An earlier version showed "below 10 %" for a restitution of 0.067 with an error of 20 %."""
     balance = EnergyBalance(
         initial_kinetic=2.0, gravity_work=0.0, rebound_kinetic=0.00910, viscous_loss=0.0,
         unrecovered_elastic=0.0, plate=1.0215, plastic_loss=0.9694,
@@ -104,7 +104,7 @@ def test_value_with_a_prefix_keeps_its_digits(value: float, digits: int) -> None
         (math.nan, "1", 2, ("unknown", "")),
     ],
 )
-def test_smallest_and_largest_values(
+def test_values_have_a_prefix_an_exponent_or_are_unknown(
     value: float, unit: str, digits: int, shown: tuple[str, str]
 ) -> None:
     assert prefixed(value, unit, digits) == shown

@@ -169,18 +169,18 @@ def test_parallel_sweep_gives_the_same_rows(monkeypatch: pytest.MonkeyPatch) -> 
     assert sweep.run(scene, span, workers=2) == alone
 
 
-@pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="signals cannot be held")
+@pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="signals cannot be blocked")
 def test_worker_processes_ignore_ctrl_c() -> None:
     """Ctrl-C is blocked in starting processes, which would otherwise print a traceback."""
-    ask = "import signal; print(signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ()))"
+    program = "import signal; print(signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ()))"
 
-    def deaf() -> str:
-        call = [sys.executable, "-c", ask]
+    def interrupts_are_blocked() -> str:
+        call = [sys.executable, "-c", program]
         return subprocess.run(call, capture_output=True, text=True, check=True).stdout.strip()
 
     with sweep.unheard_interrupts():
-        assert deaf() == "True"
-    assert deaf() == "False"
+        assert interrupts_are_blocked() == "True"
+    assert interrupts_are_blocked() == "False"
 
 
 def test_killed_worker_process_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -81,7 +81,7 @@ def test_results_agree_within_the_tolerance_of_the_elements(
 
 
 def test_curvature_by_waves_belongs_to_the_radii_of_the_element() -> None:
-    """It was that of the iteration before: the largest radius was wrong by up to 5e-9."""
+    """An earlier version used the iteration before, with errors of the radius up to 5e-9."""
     foam = {
         "radius": 0.10270267447731761, "thickness": 0.023658004721378304, "edge": "clamped",
         "youngs_modulus": 635211190.9896301, "poissons_ratio": 0.23370357141830028, "density": 1200,
@@ -109,8 +109,8 @@ def test_viscoelastic_force_is_not_negative(name: str) -> None:
 
 
 def test_contact_that_widens_behind_the_plate_has_no_remaining_time() -> None:
-    """The approach of a viscoelastic contact may be negative; the length of the next element was
-    then a complex number.
+    """The approach of a viscoelastic contact may be negative; an earlier version then computed a
+    complex length of the next element.
     """
     rows, none = np.zeros((9, 4)), np.zeros(1)
     element = Element(1.0, 0.1, rows, np.array([0.5, 0.0, 0.0, 0.0]))

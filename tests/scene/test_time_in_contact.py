@@ -1,4 +1,4 @@
-"""The least time in contact, known before a simulation, and refusals that follow from it."""
+"""The least time in contact, known before a simulation, and rejections that follow from it."""
 
 import math
 import re
@@ -86,8 +86,8 @@ def test_heavy_sphere_deflects_the_plate_as_far_as_is_estimated(
     assert time_in_contact.DEFLECTED < actual < 1.0
 
 
-def test_heavy_sphere_on_a_plate_that_stretches_is_refused_before_the_first_step() -> None:
-    """The proposed speed is the largest that is not refused; any is simulated with given modes."""
+def test_heavy_sphere_on_a_plate_that_stretches_is_rejected_before_the_first_step() -> None:
+    """The proposed speed is the largest that is not rejected; any is simulated with given modes."""
 
     def check(speed: float, **more: Any) -> None:
         phone = scene(0.0158, GLASS | {"radius": 0.03, "thickness": 1.1e-3}, speed)
@@ -143,7 +143,7 @@ def test_a_speed_that_needs_too_many_time_steps_is_not_proposed() -> None:
         simulate(read(phone))
 
 
-def test_impact_with_too_many_time_steps_is_refused_and_runs_on_a_thicker_plate() -> None:
+def test_impact_with_too_many_time_steps_is_rejected_and_runs_on_a_thicker_plate() -> None:
     plate = GLASS | {"radius": 0.4, "thickness": 0.6e-3}
     with pytest.raises(SceneError, match=r"effects\.inertia: .* time steps"):
         simulate(read(scene(0.0158, plate, 1.0)))

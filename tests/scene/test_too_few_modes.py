@@ -1,4 +1,4 @@
-"""Too few modes for any error bound are refused before the simulation, with a sufficient number."""
+"""Too few modes for any error bound are rejected before a simulation, with a sufficient number."""
 
 import re
 from dataclasses import replace
@@ -23,7 +23,7 @@ def scene(modes: int | str, rtol: float | None = 0.3) -> Any:
     return read(PANE | {"inertia": {"modes": modes}} | accuracy)
 
 
-def named() -> tuple[int, int]:
+def recommended() -> tuple[int, int]:
     with pytest.raises(SceneError, match=r"^inertia\.modes: ") as error:
         simulate(scene(3))
     found = re.search(r"at least (\d+) modes .* inertia\.modes to (\d+)", str(error.value))
@@ -31,14 +31,14 @@ def named() -> tuple[int, int]:
     return int(found[1]), int(found[2])
 
 
-def test_too_few_modes_are_refused_without_a_simulation(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_too_few_modes_are_rejected_without_a_simulation(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(contact_sequence, "impact_history", None)
-    assert named()[0] > 3
+    assert recommended()[0] > 3
 
 
-def test_the_named_numbers_have_a_bound_and_only_smaller_ones_are_refused() -> None:
+def test_recommended_numbers_have_a_bound_and_only_smaller_ones_are_rejected() -> None:
     """Without a tolerance, no number below the least has a bound."""
-    least, enough = named()
+    least, enough = recommended()
     result = simulate(scene(enough, 0.1))
     assert result.accuracy.bound <= 0.1
     assert result.accuracy.bound < simulate(scene(least, None)).accuracy.bound < float("inf")
@@ -47,8 +47,8 @@ def test_the_named_numbers_have_a_bound_and_only_smaller_ones_are_refused() -> N
         simulate(scene(least - 1))
 
 
-def test_no_tolerance_above_one_is_named() -> None:
-    """A large error was refused with a tolerance of 290 %, which no scene may have."""
+def test_no_tolerance_above_one_is_recommended() -> None:
+    """An earlier message recommended a tolerance of 290 %, which a scene may not have."""
     result = simulate(scene(40, None))
     accuracy, law = replace(result.accuracy, law=Part(2.2, ESTIMATED)), result.effects.law
     large, small = (str(out_of_reach(0.5, accuracy, law, 1e-4, 1.0, (), x)) for x in (2.9, 0.9))

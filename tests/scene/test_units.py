@@ -64,7 +64,7 @@ def test_strength_is_compared_with_the_modulus_of_a_named_material(key: str, uni
     assert not unit_warnings(read(SCENE | soft))
 
 
-def test_grams_are_told_from_a_heavy_body_above_the_sphere() -> None:
+def test_grams_are_distinguished_from_a_mass_larger_than_that_of_the_sphere() -> None:
     solid = 4.0 / 3.0 * np.pi * 0.008**3 * 2500.0
     [text] = unit_warnings(read(with_value("sphere.mass", 1000.0 * solid)))
     assert f"write {solid:.6g}" in text
@@ -90,7 +90,7 @@ def test_foam_gel_diamond_and_lead_get_no_warning(modulus: float, density: float
     assert not unit_warnings(read(scene))
 
 
-def test_a_refusal_begins_with_the_warning() -> None:
+def test_a_rejection_begins_with_the_warning() -> None:
     wrong = read(with_value("plate.youngs_modulus", 65.0))
     for run in (lambda: simulate(wrong), lambda: indent(wrong, force=10.0)):
         with pytest.raises(SceneError, match=r"^plate\.youngs_modulus = 65 Pa"):

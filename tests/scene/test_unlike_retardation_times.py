@@ -90,11 +90,11 @@ def of_bodies(
     while True:
         begun = t
 
-        def left(t: float, state: Any, begun: float = begun) -> float:
+        def separation(t: float, state: Any, begun: float = begun) -> float:
             return force(state)[1] + (1e-9 if t < begun + 1e-6 else 0.0)
 
-        left.terminal, left.direction = True, -1.0  # type: ignore[attr-defined]
-        settings = {"events": left, "rtol": 1e-9, "atol": 1e-13, "max_step": 0.05}
+        separation.terminal, separation.direction = True, -1.0  # type: ignore[attr-defined]
+        settings = {"events": separation, "rtol": 1e-9, "atol": 1e-13, "max_step": 0.05}
         if not omega.size:
             settings["max_step"] = np.inf
         run = solve_ivp(rates, (t, t + 200.0), state, "LSODA", **settings)
@@ -142,9 +142,9 @@ def own_times_errors(result: pc.Result) -> dict[str, float]:
 def test_model_error_covers_bodies_with_their_own_times(
     ratio: float, lags: tuple[float, float]
 ) -> None:
-    """The model error was 0, and the restitution 0.04 instead of 0.82 in the third impact.
+    """An earlier version stated 0; in the third impact the restitution was 0.04, not 0.82.
 
-    That of the contact time was too small for short retardation times.
+    Its error of the contact time was too small for short retardation times.
     """
     moduli = 1e9, ratio * 1e9
     unit = contact_unit(*moduli)
@@ -179,7 +179,7 @@ def test_a_stiff_sphere_hardly_changes_the_time_of_the_plate(sphere: dict[str, A
     assert errors["contact_time"] < 1e-4
 
 
-def test_like_bodies_have_no_such_error() -> None:
+def test_bodies_with_equal_retardation_times_have_no_such_error() -> None:
     result = simulated((1e9, 1e9), (1e-5, 1e-5))
     assert result.model.retardation_spread == 0.0
     assert not any(own_times_errors(result).values())
@@ -192,7 +192,7 @@ def test_like_bodies_have_no_such_error() -> None:
 def test_model_error_covers_later_contacts(
     radius: float, thickness: float, speed: float, contacts: int
 ) -> None:
-    """The force of later contacts changed by 1.3 %, twice the error that was stated."""
+    """The force of later contacts changes by 1.3 %, twice the error of an earlier version."""
     elastic = {"youngs_modulus": 3e9, "poissons_ratio": 0.3, "density": 1200.0}
     times = 4e-6, 1e-6
     plate = {"radius": radius, "thickness": thickness, "edge": "simply-supported"} | elastic

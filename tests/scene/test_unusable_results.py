@@ -1,4 +1,4 @@
-"""Results that the model does not support are named first, with a remedy that makes them usable."""
+"""Results with too large a model error are listed first, with a change that makes them usable."""
 
 import re
 from typing import Any
@@ -39,8 +39,8 @@ PANE: dict[str, dict[str, Any]] = {
 
 
 @pytest.mark.parametrize(("scene", "name"), [(HAIL, "restitution"), (PANE, "max force")])
-def test_stretching_is_named_with_a_speed_and_a_thickness(scene: Any, name: str) -> None:
-    """Both are followed: the model error is then at most about what the note says."""
+def test_note_on_stretching_recommends_a_speed_and_a_thickness(scene: Any, name: str) -> None:
+    """With either, the model error is at most about that in the note, and the note disappears."""
     result = simulate(read(scene))
     size = r"([\d.]+) (\w?)m"
     note = re.search(rf"{name} {size}/s or {size}\b", result.unusable_note)
@@ -75,8 +75,8 @@ def own_times_error(result: Result) -> float:
     return max(errors.values())
 
 
-def test_a_loss_in_the_stiffer_body_is_named_with_that_of_the_softer_one() -> None:
-    """The sphere with the time that the note names has the same contact, and a small error."""
+def test_note_on_a_loss_in_the_stiffer_body_recommends_one_in_the_softer_body() -> None:
+    """With the recommended time of the sphere the contact is the same, and the error is small."""
     stiff = simulate(read(changed(BALL, "plate", retardation_time=40e-3)))
     assert stiff.model_error > 1.0
     note = re.search(r"sphere\.retardation_time, for example ([\d.]+) (\w?)s", stiff.unusable_note)
@@ -89,8 +89,8 @@ def test_a_loss_in_the_stiffer_body_is_named_with_that_of_the_softer_one() -> No
     assert not soft.unusable_note
 
 
-def test_a_loss_in_one_of_two_similar_bodies_is_named_with_the_same_time_of_both() -> None:
-    """The note recommended the retardation time that the softer body alone already had."""
+def test_note_on_a_loss_in_one_of_two_similar_bodies_recommends_one_time_for_both() -> None:
+    """An earlier note recommended the retardation time that the softer body alone already had."""
     marble: dict[str, Any] = {
         "sphere": {"radius": 0.008, "material": "glass"},
         "plate": {

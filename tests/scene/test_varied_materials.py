@@ -39,8 +39,8 @@ def numbers(given: Scene) -> dict[str, float]:
     ],
 )
 def test_value_of_the_material_gives_the_same_impact(key: str, value: float) -> None:
-    """Density, yield stress and the other elastic constant count: the ice yields on a plate that
-    vibrates.
+    """Density, yield stress and the other elastic constant are kept: the ice yields on a vibrating
+    plate.
     """
     given = read(varied(ICE_ON_GLASS, {key: value}))
     assert numbers(given) == pytest.approx(numbers(ICE_ON_GLASS), rel=1e-12)

@@ -60,7 +60,7 @@ def spans(result: Result) -> list[tuple[float, float]]:
 
 
 def test_plate_is_continuous_where_contacts_begin_and_end(impact: Result) -> None:
-    """An earlier version left out what recovers with the face, as soon as the contact ended."""
+    """An earlier version omitted the deflection that recovers with the face from separation on."""
     dynamics: Any = impact.dynamics
     unit = dynamics.impact_history.problem.T
     for _, end in spans(impact)[:-1]:

@@ -82,9 +82,10 @@ def test_bound_without_viscosity_covers_oscillations_within_the_contact() -> Non
 
 @pytest.mark.parametrize("second", [1.0, 1.1, 1.3, 1.7, 2.3, 3.1])
 def test_a_contact_that_ends_with_a_large_radius_has_it_at_its_rounded_end(second: float) -> None:
-    """At an end that was rounded up the radius was 0, and the local indentation counted as bending.
+    """In an earlier version the radius was 0 at an end that was rounded up.
 
-    This deflection, 24 times too large, increased the model error by stretching.
+    The local indentation then counted as bending. This deflection, 24 times too large, increased
+    the model error by stretching.
     """
     pressure, later = 1.0 / second**2, 3e-6 * second
     scene = {

@@ -31,7 +31,7 @@ def history(model: Model, n: int = 16, modes: int = MODES) -> contact_sequence.I
     return contact_sequence.impact_history(problem, n)
 
 
-def felt(y: np.ndarray) -> np.ndarray:
+def normalised_modal_force(y: np.ndarray) -> np.ndarray:
     """Return g(y) = 3 (sin y - y cos y)/y^3, the normalised modal force."""
     large = np.maximum(y, 0.05)
     closed = 3.0 * (np.sin(large) - large * np.cos(large)) / large**3
@@ -59,7 +59,10 @@ def integrated(model: Model, end: float) -> tuple[float, float, float]:
         y, P = a * phi, force(a * a)
         modal_weights = np.sinc(y / np.pi)
         turned = np.cos(y) - modal_weights
-        missed = compliance * P * (3.0 * modal_weights**2 + turned * felt(y)) - turned * q
+        missed = (
+            compliance * P * (3.0 * modal_weights**2 + turned * normalised_modal_force(y))
+            - turned * q
+        )
         whole = float(indentation_slope(a, model.R, model.h, model.b)) - float(np.sum(missed)) / a
         return whole * model.R / (2.0 * a)
 
@@ -69,7 +72,7 @@ def integrated(model: Model, end: float) -> tuple[float, float, float]:
         y = a * phi
         opened = v - float(np.sum(np.sinc(y / np.pi) * u))
         grown = model.R * opened / (slope(a, q) if a else 1.0)
-        pushed = modes.inverse_modal_mass * P * felt(y) - modes.omega**2 * q
+        pushed = modes.inverse_modal_mass * P * normalised_modal_force(y) - modes.omega**2 * q
         pushed -= model.loss_factor * modes.omega * u
         return 2.0 * s * np.concatenate(([v, model.gravity - P / model.m, grown], u, pushed))
 

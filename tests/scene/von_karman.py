@@ -40,7 +40,7 @@ class ThinPlate:
 
     @cached_property
     def r(self) -> Array:
-        """Points on the radius, more of them near the axis."""
+        """Points on the radius, denser near the axis."""
         return self.radius * np.linspace(0.0, 1.0, self.points + 1)[1:] ** 1.5
 
     @cached_property
@@ -147,7 +147,7 @@ class ThinPlate:
 
 
 class Motion(NamedTuple):
-    """How fast the depth increases after a time step: at the rate less softness times the force."""
+    """Rate of the indentation after a time step: `rate` minus `softness` times the force."""
 
     rate: float
     softness: float
@@ -156,12 +156,12 @@ class Motion(NamedTuple):
 
 @dataclass
 class Hertz:
-    """An elastic contact with the force stiffness times depth^(3/2)."""
+    """An elastic contact with the force `stiffness` times depth^(3/2)."""
 
     stiffness: float
 
     def press(self, depth: float, motion: "Motion") -> tuple[float, float]:
-        """Return the force and a number in proportion to the contact radius after a time step."""
+        """Return the force, and a number proportional to the contact radius, after a time step."""
         del motion  # only a viscoelastic force depends on it
         depth = max(depth, 0.0)
         return self.stiffness * depth**1.5, math.sqrt(depth)
@@ -169,7 +169,7 @@ class Hertz:
 
 @dataclass
 class Viscoelastic(Hertz):
-    """A viscoelastic contact without tensile force, whose face recovers after it."""
+    """A viscoelastic contact without tensile force; the face recovers after separation."""
 
     retardation_time: float
     face: float = 0.0
@@ -190,7 +190,7 @@ class Viscoelastic(Hertz):
 
 @dataclass
 class Plastic(Hertz):
-    """A contact of a sphere with a radius that yields from Hertz's radius `onset` [m] on."""
+    """A plastic contact of a sphere; it yields above the contact radius `onset` [m] of Hertz."""
 
     radius: float
     onset: float

@@ -177,7 +177,7 @@ def test_invalid_names_are_rejected_before_the_computation(
 
 @pytest.mark.parametrize("key", OF_MATERIAL)
 def test_a_constant_of_one_material_is_not_used_for_all(key: str) -> None:
-    """The density of glass would make steel light; if it varies too, it is meant."""
+    """Steel with the density of glass is rejected as a mistake, unless the density varies too."""
     table, name = key.split(".")
     body, other = ("sphere", "plate") if table == "sphere" else ("plate", "sphere")
     value = {"yield_stress": 5e9, "retardation_time": 1e-6, "restitution": 0.9}.get(name, 0.5)
@@ -192,7 +192,7 @@ def test_a_constant_of_one_material_is_not_used_for_all(key: str) -> None:
     assert pc.sweep(given, {f"{body}.material": alone}, rtol=0.1).sizes == {f"{body}.material": 1}
 
 
-def test_texts_of_names(tmp_path: Path, capsys: Captured) -> None:
+def test_quoted_names_may_contain_commas_and_equals_signs(tmp_path: Path, capsys: Captured) -> None:
     """A comma belongs to a name in double quotes; an equals sign may be part of a name."""
     made = plan.grid(['plate.material="float glass, 6 mm" , steel,"a ""b"" c",x = y'])
     assert made.axes == {"plate.material": ("float glass, 6 mm", "steel", 'a "b" c', "x = y")}

@@ -57,7 +57,7 @@ def test_grid_has_every_combination_once() -> None:
 
 
 @pytest.mark.parametrize(("text", "ratio"), [("1:100:5:log", 10**0.5), ("1:16:5:log", 2)])
-def test_logarithmic_spacing(text: str, ratio: float) -> None:
+def test_logarithmic_spacing_has_a_constant_ratio(text: str, ratio: float) -> None:
     [values] = plan.grid([f"impact.speed={text}"]).axes.values()
     np.testing.assert_allclose(np.divide(values[1:], values[:-1]), ratio, rtol=1e-14)
 

@@ -32,7 +32,7 @@ def wait(condition: Callable[[], object]) -> None:
     """Wait until a condition is true."""
     end = time.monotonic() + PATIENCE
     while not condition():
-        assert time.monotonic() < end, "waited in vain"
+        assert time.monotonic() < end, "the condition is still false"
         time.sleep(0.02)
 
 
@@ -127,8 +127,8 @@ def test_missing_scheduler_is_reported(
         assert "Traceback" not in output
 
 
-def test_a_client_that_fails_is_closed_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Python would close it in any thread: in that of a new client, it would wait for itself."""
+def test_a_client_that_fails_is_closed_immediately(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Otherwise Python may close it in the thread of a new client, which then waits for itself."""
     monkeypatch.setattr(run, "PATIENCE", 0.2)
     gc.collect()
     gc.disable()
@@ -171,7 +171,7 @@ def taken_port(number: int) -> Iterator[None]:
 
 
 def test_processes_keep_freed_memory_beside_another_study(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Dask's default returns memory at once, which costs large simulations a third of their time.
+    """With Dask's default, freeing memory immediately takes a third of the time of simulations.
 
     The other study has Dask's default port, which is no reason for a warning.
     """
@@ -183,7 +183,7 @@ def test_processes_keep_freed_memory_beside_another_study(monkeypatch: pytest.Mo
 
 
 def test_slow_batches_are_divided(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    # The first points need no viscosity and are computed in arrays, the last ones singly.
+    # The first points need no viscosity and are computed in arrays, the last ones one by one.
     vary = {"plate.retardation_time": "1e-12:1e-4:20:log"}
     pc.sweep(scene(), vary, out=tmp_path / "whole.csv")
     monkeypatch.setattr(run, "BATCH_SECONDS", 0.0)

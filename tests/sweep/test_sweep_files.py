@@ -286,19 +286,19 @@ def test_memory_does_not_grow_with_the_study(
     peaks = []
     for number, size in enumerate((2**10, 2**11, 2**13, 2**13)):
         made = plan.sample(read_distributions({"impact.speed": NORMAL}), size, 1, "random")
-        held = store.Store(Study(scene(), made, None), tmp_path / f"{number}.parts")
+        batches = store.Store(Study(scene(), made, None), tmp_path / f"{number}.parts")
         pa.default_memory_pool().release_unused()
         tracemalloc.start()
         arrow = [pa.total_allocated_bytes()]
-        run.compute(held, 1, None, False, lambda *_: None)
+        run.compute(batches, 1, None, False, lambda *_: None)
         write.write(
-            held,
+            batches,
             tmp_path / f"{number}{suffix}",
             lambda *_, arrow=arrow: arrow.append(pa.total_allocated_bytes()),
         )
         peaks.append(tracemalloc.get_traced_memory()[1] + max(arrow) - arrow[0])
         tracemalloc.stop()
-        assert data_set(held).sizes == {"sample": size}
+        assert data_set(batches).sizes == {"sample": size}
     assert min(peaks[2:]) < 1.5 * peaks[1]
     assert journal(tmp_path / "3", 2**13).max() == 1
     assert formula.calls == 2**10 + 2**11 + 2 * 2**13
@@ -326,7 +326,7 @@ def test_more_points_than_fit_in_memory_are_read_from_the_file(
     suffix: str, formula: Formula, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Without a file that can be read in blocks, they are rejected before any is computed."""
-    held = pc.sweep(scene(), GRID)
+    in_memory = pc.sweep(scene(), GRID)
     calls = formula.calls
     monkeypatch.setattr(dataset, "MOST_IN_MEMORY", 5)
     for out in (None, tmp_path / "rows.csv"):
@@ -335,10 +335,10 @@ def test_more_points_than_fit_in_memory_are_read_from_the_file(
     assert formula.calls == calls
     with pc.sweep(scene(), GRID, out=tmp_path / f"rows{suffix}") as read:
         assert all(array.chunks for array in read.data_vars.values())
-        assert read.sizes == held.sizes
-        for name in held.variables:
-            if name in UNITS or name in held.coords:
-                np.testing.assert_array_equal(read[name], held[name])
-                assert read[name].units == held[name].units
+        assert read.sizes == in_memory.sizes
+        for name in in_memory.variables:
+            if name in UNITS or name in in_memory.coords:
+                np.testing.assert_array_equal(read[name], in_memory[name])
+                assert read[name].units == in_memory[name].units
             else:
-                assert read[name].values.tolist() == held[name].values.tolist()
+                assert read[name].values.tolist() == in_memory[name].values.tolist()

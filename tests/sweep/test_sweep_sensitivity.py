@@ -54,7 +54,7 @@ def test_indices_of_known_functions(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_results_without_a_bound_have_no_indices(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A bound on the restitution says nothing of a force whose scatter may be an omitted effect."""
+    """A bound on the restitution is no bound on the force, which omitted effects may change."""
     monkeypatch.setattr(run, "solve", rows)
     monkeypatch.setattr(sensitivity, "RESAMPLES", 9)
     vary, names = dict.fromkeys(KEYS, SPREAD), list(UNITS)

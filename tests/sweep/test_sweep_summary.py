@@ -37,7 +37,7 @@ def test_number_of_points_with_warnings_is_stated(capsys: pytest.CaptureFixture[
 def test_a_sweep_shows_warnings_that_differ_in_numbers_once(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    """Forty values gave 145 lines: a warning for each, with other numbers."""
+    """An earlier version printed 145 lines for forty values, whose warnings had other numbers."""
     assert main(["simulate", str(QUICK), "--sweep", "impact.speed=-3,1,-2,-1"]) == 0
     said = " ".join(capsys.readouterr().err.split())
     assert said.count("expected a positive number") == 1
@@ -101,7 +101,7 @@ def test_distribution_without_sample_asks_for_its_size() -> None:
 
 
 def test_bound_is_that_of_the_outputs_of_the_scene() -> None:
-    """The restitution of an elastic contact is exact, and the force was said to be exact, too."""
+    """An earlier version stated that the force is exact because the restitution is."""
     accuracy = {"rtol": 1e-3, "outputs": ["restitution"]}
     some = read(scene().to_json() | {"accuracy": accuracy})
     data = sweep(some, {"impact.speed": [0.5, 1.0]})

@@ -41,7 +41,7 @@ THICK = (
     )),
     *((H, 0.45, 0.15, 6.0) for H in (0.5, 0.65, 0.8)),
 )  # fmt: skip
-"""The same of thick plates, on which the edge matters more."""
+"""The same quantities for thick plates, on which the edge has a larger effect."""
 AUXETIC = tuple(
     (H, nu, *rest)
     for H, nu, rest in itertools.product(
@@ -49,7 +49,7 @@ AUXETIC = tuple(
     )
     if nu == -0.3 or H in (0.1, 0.3)
 )
-"""The same of plates with a negative Poisson's ratio."""
+"""The same quantities for plates with a negative Poisson's ratio."""
 RATIOS = (0.02, 0.05, 0.1, 0.2, 0.3)
 """Thickness over radius of the plates whose natural frequencies are computed."""
 POISSON = (0.0, 0.2, 0.3, 0.45)

@@ -76,7 +76,7 @@ def contact_forces(compliance: Double, gap: Double, start: Nodes) -> tuple[Doubl
     Raises
     ------
     ArithmeticError
-        If the set of touching nodes still changes after `ROUNDS` iterations.
+        If the set of touching nodes still changes after `MAX_ITERATIONS` iterations.
     """
     active = start
     for _ in range(MAX_ITERATIONS):
@@ -215,7 +215,7 @@ def simulate_impact(
     system, sphere
         The plate on a mesh, and the sphere.
     step
-        Time step during a contact [s]; between contacts it is `FLIGHT` times as long.
+        Time step during a contact [s]; between contacts it is `FLIGHT_STEP` times as long.
     longest
         Largest duration of the impact [s].
     until_end
@@ -288,7 +288,7 @@ class ElementImpact:
         Largest stress on the axis of the back face until shear waves have crossed the thickness
         after the last contact [Pa], without the fluctuations from node to node.
     contacts
-        Number of contacts that are separated by at least `APART` steps without contact.
+        Number of contacts that are separated by at least `GAP_STEPS` steps without contact.
     energy
         Energy of plate and sphere after the last contact, over the initial one [1].
     """

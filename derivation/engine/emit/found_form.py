@@ -39,7 +39,7 @@ def cached_form(
 ) -> tuple[ProductForm, int]:
     """Return the result of `found_form`, cached until the formula or one of its inputs changes.
 
-    Refusals are cached as well, because a search takes longest if it fails.
+    Errors are cached as well, because a search takes longest if it fails.
     """
     words = formula.vocabulary.with_conditions(formula.where)
     given = GivenFormula(formula.name, formula.expression, words)

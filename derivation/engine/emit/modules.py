@@ -105,8 +105,8 @@ def module_files(planned: Sequence[Planned]) -> dict[str, str]:
 
 def _copied(part: CopiedModule) -> str:
     expect_reason(part.name, part.file.read_text())
-    told = sorted(part.budgets.items()), *sorted(part.notes.items())
-    source = f"{part.file.read_text()}{''.join(map(str, told))}"
+    remarks = sorted(part.budgets.items()), *sorted(part.notes.items())
+    source = f"{part.file.read_text()}{''.join(map(str, remarks))}"
     return copies.copy_text(part.file, part.package, header(source), part.budgets, part.notes)
 
 

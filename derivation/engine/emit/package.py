@@ -125,16 +125,16 @@ class PackageSettings:
             proved = form(name, module, given, made.steps, made.value, known, made.blocks)
             return replace(proved, decades=decades)
 
-        refused: list[str] = []
+        errors: list[str] = []
         made: list[Form] = []
         for part in self.parts:
             for name in part.formulas:
                 try:
                     made.append(stable(name, part.name))
                 except UnreachableError as error:
-                    refused.append(str(error))
-        if refused:
-            raise UnreachableError("\n".join(refused))
+                    errors.append(str(error))
+        if errors:
+            raise UnreachableError("\n".join(errors))
         return tuple(made)
 
     def _expect(

@@ -58,7 +58,7 @@ def expect_printed_fraction(modules: Sequence[ModuleArithmetic], kept: float) ->
 
     Parameters
     ----------
-    found
+    modules
         The arithmetic of the modules.
     kept
         The committed fraction [1].

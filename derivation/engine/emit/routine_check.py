@@ -43,7 +43,7 @@ def imported(files: Mapping[str, str]) -> Iterator[Callable[[str], ModuleType]]:
             TEMPORARY, Path(folder) / "__init__.py", submodule_search_locations=[folder]
         )
         assert spec is not None
-        assert spec.loader is not None  # as the file exists
+        assert spec.loader is not None  # because the file exists
         sys.modules[TEMPORARY] = package = module_from_spec(spec)
         try:
             spec.loader.exec_module(package)
@@ -103,7 +103,7 @@ def _check_at(
     with np.errstate(all="ignore"):
         try:
             results = np.atleast_1d(np.asarray(function(*given), dtype=float))
-        except (ArithmeticError, ValueError):  # by functions of `math`
+        except (ArithmeticError, ValueError):  # functions of `math` raise these
             results = np.full(len(routine.claims), np.nan)
     if len(results) != len(routine.claims):
         raise ProofError(

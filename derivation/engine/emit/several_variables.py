@@ -121,9 +121,9 @@ def _compared(
 def _best(
     expression: sp.Expr, words: Vocabulary, accepted: Callable[[float, ProductForm], Tested]
 ) -> Tested:
-    """Return the formula as it is, or by identities, or its form by products of the variables.
+    """Return the formula unchanged, by identities, or in a form by products of the variables.
 
-    The first of them that is accurate in a wide range is taken, or else the one with the widest.
+    The result is the first one that is accurate in a wide range, else the one with the widest.
 
     Raises
     ------
@@ -191,7 +191,7 @@ def _with_parameters(expression: sp.Expr) -> list[ProductForm]:
         return []
     x = product if product.is_Symbol else sp.Symbol(_PRODUCT, positive=True)
     reduced = expression if x == product else expression.subs(linear[0], x * linear[0] / product)
-    stable = without_series(reduced, x, ENDS)  # whose error depends on the parameters
+    stable = without_series(reduced, x, ENDS)  # its error depends on the parameters
     first = () if x == product else (Step(x, product),)
     return [ProductForm((*first, *stable.steps), stable.value)]
 

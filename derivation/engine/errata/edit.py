@@ -42,7 +42,7 @@ _FEW = 3
 _LARGEST_DENOMINATOR = 200
 """Largest denominator of required over printed exponent, such as 111/110 of 1.11 over 1.1."""
 _LONE = -2.5
-"""Cost of a missing term, less than usual, of which only the other terms of its sum are printed."""
+"""Additional cost of a missing term if the printed formula contains only the rest of its sum."""
 _POWERS = (1, -1, 2, -2, Fraction(1, 2), Fraction(-1, 2))
 """Powers of a sum in which a term is missing."""
 
@@ -158,7 +158,7 @@ def ratio_edit(
     if kind == TWICE and not _is_factor_of(ratio, position.node):
         kind = MISSING
     if kind not in (TWICE, MISSING) or ratio.as_numer_denom()[0].is_Symbol:
-        kind, extra = _stray_or_missing(position, ratio), extra + _size(ratio)
+        kind, extra = _extra_or_missing(position, ratio), extra + _size(ratio)
     return _edit(kind, position, new, _ratio_words(where, ratio, kind), extra)
 
 
@@ -194,7 +194,7 @@ def _complements(position: Position, ratio: Values, search: VariantSearch) -> It
 
 
 def _lone_terms(position: Position, ratio: Values, search: VariantSearch) -> Iterator[Edit]:
-    """Yield edits that add a term to a sum that has become a factor, as its only other term.
+    """Yield edits that add a missing term to a factor, which then is a sum.
 
     A sum x + y is then printed as x: the ratio of required to given value is a power of (x + y)/x.
     If x + y is printed with another exponent, the exponent is wrong.
@@ -222,7 +222,7 @@ def _has_other_power(
     return any((b / total).cancel().is_number for b in others)
 
 
-def _stray_or_missing(position: Position, ratio: sp.Expr) -> str:
+def _extra_or_missing(position: Position, ratio: sp.Expr) -> str:
     """Return the kind of error: the ratio removes a factor of the expression, or adds one."""
     above, below = sp.fraction(ratio)
     node = position.node.function if isinstance(position.node, sp.Integral) else position.node

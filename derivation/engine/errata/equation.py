@@ -27,7 +27,7 @@ def right_hand_side(text: str) -> str:
 
 
 def checked_right_hand_side(text: str, formula: Record) -> str:
-    """Return the same, if the left-hand side denotes a formula: by its name or its symbol.
+    """Return the right-hand side, if the left-hand side is the name or symbol of the formula.
 
     The arguments may be left out: ``f_j`` or ``f_j(z)``.
 

@@ -18,7 +18,7 @@ from derivation.engine.formula.tape import recorded
 _TRIAL_BITS = 53
 _NODES, _STEP = 24, 0.13
 _INSIDE = flint.arb(flint.fmpq(307, 811))
-"""Where in its range the variable is taken when changes of the integrand are told apart."""
+"""Position in the range of the variable at which changes of the integrand are compared."""
 _CLOSE = 1e-3
 """Relative error that an estimate may have."""
 

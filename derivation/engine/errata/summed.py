@@ -67,7 +67,7 @@ def parse_contribution(text: str, vocabulary: Vocabulary, also: Mapping[str, sp.
     calls = _sums(plain)
     if not calls:
         return parse(text, vocabulary, also)
-    if any(_holds(call, other) for call in calls for other in calls):
+    if any(_contains(call, other) for call in calls for other in calls):
         raise FormulaError(_ONE_SUM)
     marks = {f"summand_{index}": sp.Symbol(f"summand_{index}") for index in range(len(calls))}
     outer, terms = plain, {}
@@ -108,7 +108,7 @@ def _sums(plain: str) -> list[ast.Call]:
     )
 
 
-def _holds(call: ast.Call, other: ast.Call) -> bool:
+def _contains(call: ast.Call, other: ast.Call) -> bool:
     """Return whether a call contains another one."""
     return call is not other and any(node is other for node in ast.walk(call))
 

@@ -42,7 +42,7 @@ def holds(condition: str, values: Mapping[sp.Symbol, Fraction]) -> bool:
 
 
 def excess(condition: str, values: Mapping[sp.Symbol, Fraction]) -> Fraction:
-    """Return the left side of a condition less the right side, at an exact point; see `holds`."""
+    """Return the left side of a condition minus the right side, at an exact point; see `holds`."""
     difference, _ = comparison(condition)
     known = {symbol.name: value for symbol, value in values.items()}
     if missing := symbols_of(condition) - known.keys():

@@ -26,9 +26,9 @@ DRAWN = 24
 ZEROS, STEPS_TO_ZERO = 24, 14
 """Numbers of pairs of points with opposite signs, and of points that are tested between each."""
 NEXT_TO_ENDS = (0.25, 0.25, 0.75)
-"""Shares of arguments that are next to an end of their domains, one for each kind of point."""
+"""Fractions of arguments that are next to an end of their domains, for each kind of point."""
 MAGNITUDES = 10.0
-"""Ratio of the ends of a domain from which all magnitudes between them are equally likely."""
+"""Ratio of the ends of a domain above which all magnitudes in it are equally likely."""
 DECADES_DRAWN = 3.0, 12.0, 100.0
 """Exponents of ten of the ranges in which points are drawn if numbers of moderate size are outside
 the domain."""
@@ -94,7 +94,9 @@ def domain_grid(
                 values = sources[0]()
                 if inside(vocabulary, values):
                     return values
-            del sources[0]  # the next one reaches further, or takes account of other arguments
+            del sources[
+                0
+            ]  # the next attempt uses a larger range, or the conditions on other arguments
         conditions = dict.fromkeys(c for key in arguments for c in vocabulary.by_name[key].domain)
         raise ValueError(
             f"{name} cannot be tested: none of {ATTEMPTS * (1 + len(DECADES_DRAWN))} random points "
@@ -135,7 +137,7 @@ def joint_points(
 def towards_zeros(
     signs: Iterable[tuple[dict[str, float], int]], sign: Callable[[dict[str, float]], int]
 ) -> Iterator[dict[str, float]]:
-    """Yield points between those of opposite signs, ever nearer to a zero.
+    """Yield points between those of opposite signs, successively closer to a zero.
 
     Parameters
     ----------

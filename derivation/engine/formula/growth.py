@@ -100,7 +100,7 @@ def _sum(region: Region, node: sp.Expr) -> Growth:
         c = part.high.c.max(c)
     total = arb(0)
     for part in parts:
-        # both y^(k_i - k) and e^((c_i - c) y) fall
+        # both y^(k_i - k) and e^((c_i - c) y) decrease
         total += Power(part.high.C, part.high.k - k, part.high.c - c).at(T)
     result = Growth(
         Power(arb(total.upper()), k, c),

@@ -224,7 +224,7 @@ class _Infinite:
 
     @cached_property
     def _cancelled(self) -> "_Decaying":
-        """The same of the integrand as a fraction."""
+        """The same integral, with the integrand as a fraction."""
         return _Decaying(_fraction(self.f.subs(self.x, self.low + self._v)), self._v)
 
     @cached_property
@@ -274,7 +274,7 @@ class _Decaying:
         return _integrated(f, arb(0 if self.at_end else 1), end, known) + acb(radius, radius)
 
     def _truncation(self, known: Balls, holomorphic: bool) -> tuple[arb, arb] | None:
-        """Return an end of the range, and a bound of the rest; None if none is found."""
+        """Return an end of the range, and a bound of the tail; None if none is found."""
         first: arb | None = None
         best: tuple[arb, arb] | None = None
         T = arb(2)
@@ -345,7 +345,7 @@ def _enclose(expression: sp.Expr, values: Balls, holomorphic: bool) -> acb:
 
 
 def _tidy(expression: sp.Expr, v: sp.Symbol) -> sp.Expr:
-    """Return an expression in which powers of v > 0 are taken out of roots and logarithms.
+    """Return an expression with powers of v > 0 factored out of roots and logarithms.
 
     Then no root of it has a branch point at v = 0, and v cancels between factors. 1 - cos u and
     similar differences become products.

@@ -326,7 +326,7 @@ def checked_expression(expression: sp.Expr, source: str) -> sp.Expr:
         If it is not; the message contains the text `source`.
     """
     integrals = {node: sp.Dummy() for node in expression.atoms(sp.Integral)}
-    expression = expression.xreplace(integrals)  # whose limits may be infinite
+    expression = expression.xreplace(integrals)  # integrals may have infinite limits
     if expression.has(sp.zoo, sp.nan, sp.oo, -sp.oo):
         raise FormulaError(f"{_short(source)} divides by zero or has no value: correct it")
     if expression.has(sp.I):

@@ -182,28 +182,28 @@ def reference_values(
             ) from None
 
     def without_slope(point: Point) -> Reference | None:
-        """Return the value at a point where the slope is unknown, with the slope beside it.
+        """Return the value at a point where the slope is unknown, with the slope next to it.
 
-        If that is steep, the slope is infinite, as that of a root at the end of its domain: the sum
+        A steep slope counts as infinite, like that of a root at the end of its domain: the sum
         of the condition numbers then allows any finite result.
         """
         with suppress(PrecisionError):
             value = balls.value(name, point.values, digits, point.modes)
-            for beside in with_slopes_beside(point):
-                steep = beside.total > STEEP * beside.magnitude
-                slopes = {"all": flint.arb.pos_inf()} if steep else beside.sensitivity
-                return replace(beside, value=value, sensitivity=slopes, magnitude=abs(value))
+            for neighbour in neighbouring_references(point):
+                steep = neighbour.total > STEEP * neighbour.magnitude
+                slopes = {"all": flint.arb.pos_inf()} if steep else neighbour.sensitivity
+                return replace(neighbour, value=value, sensitivity=slopes, magnitude=abs(value))
         return None
 
-    def with_slopes_beside(point: Point) -> Iterator[Reference]:
+    def neighbouring_references(point: Point) -> Iterator[Reference]:
         """Yield the references that exist at the floating-point numbers next to each argument."""
         for key, x in point.values.items():
             for end in (-math.inf, math.inf):
                 values = {**point.values, key: math.nextafter(x, end)}
                 with suppress(PrecisionError):
-                    beside = balls.reference(name, values, digits, point.modes)
-                    if beside.value.is_finite():
-                        yield beside
+                    neighbour = balls.reference(name, values, digits, point.modes)
+                    if neighbour.value.is_finite():
+                        yield neighbour
 
     references = ((point, reference(point)) for point in points)
     return [

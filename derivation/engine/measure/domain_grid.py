@@ -117,7 +117,7 @@ def domain_judge(
         return inside(words(name), point.values)
 
     def suite() -> Suite:
-        assert hard_cases is not None  # as it is called only then
+        assert hard_cases is not None  # it is called only with hard cases
         kernels = {kernel.name: kernel for kernel in generated_kernels(package)}
         cases = tuple(read_cases(hard_cases))
         for case in cases:

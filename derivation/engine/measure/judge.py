@@ -192,7 +192,7 @@ def measured_errors(
     ----------
     kernel
         The function and its budget.
-    found
+    references
         Points with their references, of which none overflows the format.
     excluded
         Number of omitted points, whose reference value overflows.

@@ -38,7 +38,7 @@ class LargeError:
     ----------
     point
         The arguments.
-    company
+    second
         A second point that is passed in the same array, if the error is then larger than for plain
         numbers.
     error
@@ -46,7 +46,7 @@ class LargeError:
     """
 
     point: Point
-    company: Point | None
+    second: Point | None
     error: Error
 
     @property
@@ -87,25 +87,25 @@ class Search:
     ----------
     seed
         Seed of the sequence of points.
-    standings
+    states
         States by function, in the order of their turns.
     interrupted
         Whether it was interrupted.
     """
 
     seed: int
-    standings: dict[str, TargetSearch] = field(default_factory=dict)
+    states: dict[str, TargetSearch] = field(default_factory=dict)
     interrupted: bool = False
 
     @property
     def evaluations(self) -> int:
         """Number of points evaluated for all functions."""
-        return sum(standing.evaluations for standing in self.standings.values())
+        return sum(state.evaluations for state in self.states.values())
 
     @property
     def ratio(self) -> float:
         """Largest ratio of error to allowance of all functions."""
-        return max((standing.ratio for standing in self.standings.values()), default=-1.0)
+        return max((state.ratio for state in self.states.values()), default=-1.0)
 
 
 def search(
@@ -144,7 +144,7 @@ def search(
     if seconds is None and evaluations is None:
         raise ValueError("expected seconds or evaluations, got neither: a search has no end")
     result = Search(seed, {target.name: TargetSearch() for target in targets})
-    hunts = [search_target(target, seed, result.standings[target.name]) for target in targets]
+    searches = [search_target(target, seed, result.states[target.name]) for target in targets]
     end = None if seconds is None else time.monotonic() + seconds
 
     def over() -> bool:
@@ -153,7 +153,7 @@ def search(
 
     try:
         with np.errstate(all="ignore"), interruptions():
-            _search_in_turns(targets, hunts, result, over, progress, keep)
+            _search_in_turns(targets, searches, result, over, progress, keep)
     except KeyboardInterrupt:
         result.interrupted = True
     return result
@@ -161,14 +161,14 @@ def search(
 
 def _search_in_turns(
     targets: Sequence[Target],
-    hunts: Sequence[Iterator[None]],
+    searches: Sequence[Iterator[None]],
     result: Search,
     over: Callable[[], bool],
     progress: Progress | None,
     keep: Callable[[Search], None] | None,
 ) -> None:
     for number in itertools.count():
-        for target, steps in zip(targets, hunts, strict=True):
+        for target, steps in zip(targets, searches, strict=True):
             if (number + 1) % target.every:
                 continue  # slow functions begin after the first turns of the others
             if progress is not None:
@@ -181,7 +181,7 @@ def _search_in_turns(
             keep(result)
 
 
-def search_target(target: Target, seed: int, standing: TargetSearch) -> Iterator[None]:
+def search_target(target: Target, seed: int, state: TargetSearch) -> Iterator[None]:
     """Search for one function's worst point without end; yield after every point.
 
     Points are drawn at random. A local search then starts from the worst of them or, in every other
@@ -193,13 +193,13 @@ def search_target(target: Target, seed: int, standing: TargetSearch) -> Iterator
         best = TargetSearch()
         drawn = (target.draw(target.domain, generator) for _ in range(DRAWN))
         while points := list(itertools.islice(drawn, 16)):
-            yield from _evaluate_points(target, points, best, standing)
-        here = standing if cycle % 2 else best
-        yield from _local_search(target, generator, TargetSearch(worst=here.worst), standing)
+            yield from _evaluate_points(target, points, best, state)
+        here = state if cycle % 2 else best
+        yield from _local_search(target, generator, TargetSearch(worst=here.worst), state)
 
 
 def _local_search(
-    target: Target, generator: random.Random, here: TargetSearch, standing: TargetSearch
+    target: Target, generator: random.Random, here: TargetSearch, state: TargetSearch
 ) -> Iterator[None]:
     """Evaluate points at decreasing steps from the worst one, to both sides in each argument."""
     if here.worst is None:
@@ -211,15 +211,15 @@ def _local_search(
             if centre.values[name] == 0.0 and not domain.whole:
                 continue  # the neighbours of zero are subnormal numbers
             steps = (generator.randint(1, stride), -generator.randint(1, stride))
-            beside = (domain.moved(centre, name, step) for step in steps)
-            points = [point for point in beside if domain.holds(point)]
-            yield from _evaluate_points(target, points, here, standing)
+            neighbours = (domain.moved(centre, name, step) for step in steps)
+            points = [point for point in neighbours if domain.holds(point)]
+            yield from _evaluate_points(target, points, here, state)
 
 
 def _evaluate_points(
-    target: Target, points: Sequence[Point], here: TargetSearch, standing: TargetSearch
+    target: Target, points: Sequence[Point], here: TargetSearch, state: TargetSearch
 ) -> Iterator[None]:
-    """Evaluate points one by one; store a larger ratio in `here`, and in `standing`."""
+    """Evaluate points one by one; store a larger ratio in `here`, and in `state`."""
     if not points:
         return
     results = target.call(points) if target.bound is not None else None
@@ -227,12 +227,12 @@ def _evaluate_points(
         if results is None or _may_be_worse(target, point, results[i], here.ratio):
             error = point_error(target, point, points[i - 1])
             if error is None:
-                standing.unjudged += 1
+                state.unjudged += 1
             elif error.ratio > here.ratio:
                 here.worst = error
-                if error.ratio > standing.ratio:
-                    standing.worst = error
-        standing.evaluations += 1
+                if error.ratio > state.ratio:
+                    state.worst = error
+        state.evaluations += 1
         yield
 
 
@@ -241,7 +241,7 @@ def _may_be_worse(target: Target, point: Point, got: tuple[float, ...], ratio: f
     return target.bound is None or target.bound(point, got) > ratio
 
 
-def point_error(target: Target, point: Point, company: Point | None) -> LargeError | None:
+def point_error(target: Target, point: Point, second: Point | None) -> LargeError | None:
     """Return a point's error: for plain numbers, or in an array with a second point if larger.
 
     Returns None if there is no reference value.
@@ -250,9 +250,9 @@ def point_error(target: Target, point: Point, company: Point | None) -> LargeErr
     alone = target.measure(point, plain)
     if alone is None:
         return None
-    if company is not None and company.modes == point.modes:
-        together = target.call([point, company])[0]
+    if second is not None and second.modes == point.modes:
+        together = target.call([point, second])[0]
         error = target.measure(point, together) if together != plain else None
         if error is not None and error.ratio > alone.ratio:
-            return LargeError(point, company, error)
+            return LargeError(point, second, error)
     return LargeError(point, None, alone)

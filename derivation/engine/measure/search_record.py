@@ -45,9 +45,9 @@ def seconds_of(duration: str) -> int:
 
 def case_of(kernel: str, error: LargeError, seed: int) -> HardCase:
     """Return a point of the search as a case, with an array if it has a second point."""
-    points = [error.point] if error.company is None else [error.point, error.company]
+    points = [error.point] if error.second is None else [error.point, error.second]
     inputs = {name: tuple(p.values[name].hex() for p in points) for name in error.point.values}
-    form = "scalar" if error.company is None else "array"
+    form = "scalar" if error.second is None else "array"
     cause = f"Found by search, seed {seed}."
     return HardCase(GROUP, kernel, cause, inputs, form, error.point.modes)
 
@@ -71,8 +71,8 @@ def measured_case(case: HardCase, targets: Mapping[str, Target]) -> LargeError |
     if set(case.inputs) != set(target.domain.arguments):
         expected = ", ".join(target.domain.arguments)
         raise ValueError(f"{target.name} takes {expected}; got {', '.join(case.inputs)}")
-    point, *company = points_of(case)
-    return point_error(target, point, company[0] if company else None)
+    point, *second = points_of(case)
+    return point_error(target, point, second[0] if second else None)
 
 
 def read(path: Path) -> list[HardCase]:
@@ -178,9 +178,9 @@ class SearchRecord:
     def keep(self, search: Search) -> None:
         """Write earlier and new cases, if there are new ones that are not written yet."""
         new = [
-            (case_of(kernel, standing.worst, search.seed), standing.worst)
-            for kernel, standing in search.standings.items()
-            if standing.worst is not None and self.is_new(kernel, standing.worst)
+            (case_of(kernel, state.worst, search.seed), state.worst)
+            for kernel, state in search.states.items()
+            if state.worst is not None and self.is_new(kernel, state.worst)
         ]
         text = to_toml([*self._earlier, *new])
         if new and text != self._written:
@@ -198,18 +198,18 @@ class SearchRecord:
 
 def cells(kernel: str, search: Search, book: SearchRecord) -> tuple[str, ...]:
     """Return a function's entries under `COLUMNS`."""
-    standing = search.standings[kernel]
-    worst = standing.worst
+    state = search.states[kernel]
+    worst = state.worst
     if worst is None:
-        return (kernel, str(standing.evaluations), "", "", "", "")
+        return (kernel, str(state.evaluations), "", "", "", "")
     numbers = (f"{x:.3g}" for x in (worst.ratio, worst.error.ulp, worst.error.allowed))
     new = "yes" if book.is_new(kernel, worst) else ""
-    return (kernel, str(standing.evaluations), *numbers, new)
+    return (kernel, str(state.evaluations), *numbers, new)
 
 
 def arguments(kernel: str, search: Search) -> str:
     """Return a function's worst arguments, decimal and hexadecimal, in one line."""
-    worst = search.standings[kernel].worst
+    worst = search.states[kernel].worst
     if worst is None:
         return f"{kernel}:"
     inputs = case_of(kernel, worst, search.seed).inputs.items()
@@ -224,16 +224,16 @@ def as_data(search: Search) -> dict[str, Any]:
         "seed": search.seed,
         "interrupted": search.interrupted,
         "evaluations": search.evaluations,
-        "rows": [_row(kernel, search) for kernel in search.standings],
+        "rows": [_row(kernel, search) for kernel in search.states],
     }
 
 
 def _row(kernel: str, search: Search) -> dict[str, Any]:
-    standing = search.standings[kernel]
-    counts = {"evaluations": standing.evaluations, "unjudged": standing.unjudged}
-    if standing.worst is None:
+    state = search.states[kernel]
+    counts = {"evaluations": state.evaluations, "unjudged": state.unjudged}
+    if state.worst is None:
         return {"kernel": kernel, **counts, "ratio": None, "ulp": None, "allowed": None}
-    error, entry = standing.worst.error, case_of(kernel, standing.worst, search.seed).table
+    error, entry = state.worst.error, case_of(kernel, state.worst, search.seed).table
     numbers: dict[str, float] = {"ratio": error.ratio, "ulp": error.ulp, "allowed": error.allowed}
     where = {key: entry[key] for key in ("inputs", "form", "modes") if key in entry}
     return {"kernel": kernel, **counts, **plain(numbers), **where}
@@ -241,4 +241,4 @@ def _row(kernel: str, search: Search) -> dict[str, Any]:
 
 def all_within_allowance(search: Search) -> bool:
     """Return whether every error is within its allowance."""
-    return all(standing.ratio <= 1.0 for standing in search.standings.values())
+    return all(state.ratio <= 1.0 for state in search.states.values())

@@ -214,7 +214,7 @@ def find_references(
     progress
         Called after every case with its function, its number and the number of cases.
     """
-    known = _standing(recorded) | _standing(part)
+    known = _saved(recorded) | _saved(part)
     references: dict[str, Known] = {}
     saved = time.monotonic()
     try:
@@ -231,7 +231,7 @@ def find_references(
     return references
 
 
-def _standing(path: Path) -> dict[str, Known]:
+def _saved(path: Path) -> dict[str, Known]:
     return known_of(json.loads(path.read_text())) if path.is_file() else {}
 
 

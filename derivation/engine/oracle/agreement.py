@@ -135,7 +135,7 @@ class Routes:
         terms = f" ({modes} terms)" if modes else ""
         raise OracleError(
             f"the references of {name} contradict each other at {point}{terms}: {ball.str(20)} by "
-            f"the derived formula against {other.str(20)} by the second route; correct one of them"
+            f"the derived formula against {other.str(20)} by the second method; correct one of them"
         )
 
 

@@ -129,7 +129,7 @@ def formula_context(
     whole, factor = right_side(formula), known.get(named)
     sources = [reference(source, known) for source in formula.sources]
     if factor and whole.free_symbols == factor.expression.free_symbols:
-        factor = None  # a formula of the factor's own step
+        factor = None  # the factor is not named in its own step
     if factor and function_by_name(whole, factor) != whole and named not in formula.sources:
         sources.append(f"with {reference(named, known)}")
     return {

@@ -73,7 +73,7 @@ def _converted(latex: str, title: str) -> str:
         check=False,
     )
     if run.returncode:
-        raise HtmlError(f"pandoc refused the report: {run.stderr.strip()}")
+        raise HtmlError(f"pandoc rejected the report: {run.stderr.strip()}")
     return run.stdout
 
 

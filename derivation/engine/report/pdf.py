@@ -80,7 +80,7 @@ def typeset(source: Path) -> tuple[bytes, str]:
                 check=False,
             )
             if run.returncode:
-                raise TexError(f"pdflatex refused {source}: {first_error(run.stdout)}")
+                raise TexError(f"pdflatex failed on {source}: {first_error(run.stdout)}")
             before, noted = noted, _notes(made)
             if count and noted == before:
                 break

@@ -49,7 +49,7 @@ def accounts(
 ) -> tuple[Account, ...]:
     """Return the result of the rules for each named formula.
 
-    A formula of several dimensionless products has no row: the rules write parts of it only.
+    A formula of several dimensionless products has no row: the rules apply to parts of it only.
 
     Parameters
     ----------

@@ -230,7 +230,7 @@ def _exact_value(
         try:
             slope = evaluate(derivative, at, 3)
         except (PrecisionError, NotImplementedError):
-            return value, 0.0  # then no conditioning is taken into account
+            return value, 0.0  # without conditioning
         with flint.ctx.workprec(64):
             return value, float(abs(slope * to_ball(point) / value).abs_upper()) / 2
     return None, 0.0

@@ -276,7 +276,7 @@ def _shape(reduced: Reduced) -> Shape:
     if isinstance(given, sp.Add):
         given = next(fraction(reduced.scale.variable, given), given)
     shape = next(decay(reduced.scale.variable, given))
-    assert isinstance(shape, Shape)  # as `decay` returns for every expression
+    assert isinstance(shape, Shape)  # `decay` always returns a shape
     return shape
 
 

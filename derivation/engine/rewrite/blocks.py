@@ -30,7 +30,7 @@ class Definition(NamedTuple):
         Name, and variable.
     total
         The sum that it represents.
-    lead, held
+    lead, constant_power
         The power of the leading term if the sum cancels at 0, and the part of this power that is
         constant above the switch point.
     reads

@@ -99,7 +99,7 @@ class _Reference:
                     return value, 0.0
                 steep = self._refined(slope, point, 3, most)
                 if steep is None:
-                    return value, 0.0  # no conditioning is taken into account
+                    return value, 0.0  # without conditioning
                 with flint.ctx.workprec(64):
                     condition = abs(steep * to_ball(point) / value).abs_upper()
                 return value, float(condition) / 2

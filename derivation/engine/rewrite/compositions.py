@@ -114,7 +114,7 @@ def _quotient(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
         return sp.cancel(expression)
     written = sp.expand(expression.rewrite((sp.sinh, sp.cosh), sp.exp))
     if any(power.exp.q == 2 for power in expression.atoms(sp.Pow) if power.exp.is_Rational):
-        return sp.together(expression)  # in which the difference with a root is a factor
+        return sp.together(expression)  # then the difference with a root is a factor
     return min((expression, written), key=sp.count_ops)
 
 

@@ -87,7 +87,7 @@ def _operation(node: sp.Basic) -> tuple[Operation, tuple[sp.Basic, ...]]:
         value = float(node)
         return lambda: value, ()
     if isinstance(node, sp.Add):
-        number, rest = node.as_coeff_Add()  # a number is last, as in the printed code
+        number, rest = node.as_coeff_Add()  # the number is added last, as in the printed code
         return partial(_sum, float(number)), rest.args if rest.is_Add else (rest,)
     if isinstance(node, sp.Mul):
         return _product(node)

@@ -33,14 +33,14 @@ SMALLEST = 1e-150
 LEAST_VALUE = sys.float_info.min
 """Smallest value that is tested; smaller ones are subnormal and have fewer digits."""
 DECAYING = sp.exp, sp.sinh, sp.cosh, sp.tanh, sp.coth
-"""Functions of which a part of a form may leave the range of doubles before the value does."""
+"""Functions that, as part of a form, may leave the range of doubles before its value does."""
 
 DECADES = 100, 30, 12, 6
 """Exponents of ten of the ranges of all arguments in which forms are tested, the largest first."""
 HALF = 0.5
 """Allowed error per sum of the condition numbers, if every argument is rounded."""
 FEW = 150
-"""Number of points at which a form is tested before it is tested at all."""
+"""Number of points of a first, quick test of a form."""
 OVERFLOWS = 72
 """Number of pairs of points between which the value overflows."""
 JOINT = 1500
@@ -182,7 +182,7 @@ class JointTest:
                 )
             joint = joint_points(self.formula.name, names, words, decades, JOINT)
             known = _with_values(self.formula, (*grid, *joint))
-            if self.nearer is None:  # they are of moderate size, and tested in every range
+            if self.nearer is None:  # these points are of moderate size, and tested in every range
                 signs = [(point, _sign(value)) for point, value in known]
                 nearer = towards_zeros(signs, lambda point: self._side(point, _sign))
                 ends = chain(nearer, self._underflow(joint), self._overflow(joint))
@@ -195,7 +195,7 @@ class JointTest:
         return self.known[decades]
 
     def _underflow(self, points: Iterable[dict[str, float]]) -> Iterator[dict[str, float]]:
-        """Yield points between those with a normal and with a smaller value, ever nearer to it."""
+        """Yield points successively closer to where a normal value becomes a smaller one."""
         if not self.formula.expression.has(*DECAYING):
             return
 
@@ -206,7 +206,7 @@ class JointTest:
         yield from towards_zeros(sides, side)
 
     def _overflow(self, points: Iterable[dict[str, float]]) -> Iterator[dict[str, float]]:
-        """Yield points between those with a finite double and with a larger value, ever nearer.
+        """Yield points successively closer to where a value that is a finite double becomes larger.
 
         Parts of a form may overflow there before the value does.
         """
@@ -298,7 +298,7 @@ def _beyond(
     at: Mapping[sp.Symbol, float],
     share: float = HALF,
 ) -> float:
-    """Return the error [ULP], less a share of the condition numbers if it is large."""
+    """Return the error [ULP], minus a share of the condition numbers if it is large."""
     if not ENOUGH / 2 < error < math.inf:
         return error
     return max(error - share * _conditioning(expression, tuple(at.items())), 0.0)

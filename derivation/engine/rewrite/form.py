@@ -126,7 +126,7 @@ class Block:
         The variables.
     total
         The sum that it represents.
-    lead, held
+    lead, constant_power
         The power of the variable by which the sum is divided, and the part of this power that is
         constant above the switch point.
     domain
@@ -181,7 +181,9 @@ def substitute_steps(
     expression = expression.replace(TAIL, lambda v: sp.exp(sp.Min(v, ONCE) - v))
     for block in blocks.values():
         expression = expression.replace(sp.Function(block.name), block.definition)
-    expression = expression.replace(sp.Heaviside, lambda *_: _CHOICE)  # for both values
+    expression = expression.replace(
+        sp.Heaviside, lambda *_: _CHOICE
+    )  # a symbol stands for both values
     expression = expression.replace(expm1, lambda x: sp.exp(x) - 1)
     expression = expression.replace(
         lambda e: isinstance(e, sp.Max) and TINY in e.args, _without_limits

@@ -32,7 +32,7 @@ def by_identities(expression: sp.Expr) -> Iterator[sp.Expr]:
     for given in dict.fromkeys((bounded, expression, factored)):
         stable = given.replace(sp.log, _logarithm)
         for written in conjugate(_ANY, stable):
-            assert isinstance(written, sp.Expr)  # as `conjugate` returns for an expression
+            assert isinstance(written, sp.Expr)  # `conjugate` returns expressions here
             stable = written
         stable = stable.replace(lambda node: node.is_Add, _sum)
         stable = stable.replace(lambda node: node.is_Mul, _bounded)

@@ -56,14 +56,14 @@ def about_point(expression: sp.Expr, x: sp.Symbol, point: sp.Rational) -> Stable
         steps = *steps, Step(ratio, base.diff(x) * change / (base + 1))
     for rule in (logarithm, fraction, half_angle, decay):
         given = next(rule(own, given), given)
-    assert isinstance(given, Shape)  # as `decay` returns for every expression
+    assert isinstance(given, Shape)  # `decay` always returns a shape
     # Where x is near 0, a factor x would be p + u, which cancels.
     most = point if point and of_ratio is None else sp.oo
     factors, at = _with_series(given.factors, own, [at for at in DISTANCES if at < most])
     if all(factor.near is None for factor in factors):
         raise UnreachableError(f"no terms of {expression} cancel at {x} = {point}")
     _, switch = assembled_form(replace(given, factors=factors, switch=at))
-    assert isinstance(switch, Switch)  # as the shape has a switch point
+    assert isinstance(switch, Switch)  # because the shape has a switch point
     rows = (replace(s, expression=s.expression.xreplace({own: near})) for s in switch.below.steps)
     below = Branch(tuple(rows), switch.below.value.xreplace({own: near}))
     steps = *steps, Step(distance, sp.Abs(near))

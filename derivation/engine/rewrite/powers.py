@@ -73,7 +73,7 @@ def _exponents(node: sp.Expr, x: sp.Symbol) -> Exponents:
 
 
 def _first(fronts: list[sp.Expr]) -> sp.Expr:
-    """Return the power that is taken out of a sum: none if one of its terms has none."""
+    """Return the power that is factored out of a sum: none if one of its terms has none."""
     return sp.Integer(0) if 0 in fronts else fronts[0]
 
 

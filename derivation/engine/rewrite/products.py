@@ -147,7 +147,7 @@ def _form(formula: Stated, inverted: bool) -> ProductForm:
     for product, stable in factors:
         x, core = stable.variable, stable.value
         steps += [Step(x, dimensionless_product(product))] if len(product) > 1 else []
-        alone = len(factors) == 1 or not stable.steps  # else names of steps could occur twice
+        alone = len(factors) == 1 or not stable.steps  # otherwise names of steps could occur twice
         if alone and isinstance(core, sp.Expr) and not core.has(POLYNOMIAL):
             steps += stable.steps
             value *= core

@@ -40,7 +40,7 @@ USUAL = 1e9
 """Largest of the usual numbers, and the inverse of the smallest."""
 FACTORS, ABOUT = "factors", "series about a point"
 """Names of the rules that write x - p as a factor for each zero p, and that of `near_points`."""
-SURELY = 0.5 * ENOUGH
+CLEARLY = 0.5 * ENOUGH
 """Error [ULP] up to which the first form is taken, because the code is tested at more points."""
 
 
@@ -64,11 +64,11 @@ def stabilised(
         try:
             forms.append(_tested(search(), ends, loss, rule))
         except UnreachableError as error:
-            if rule not in (FACTORS, ABOUT):  # which few formulas need
+            if rule not in (FACTORS, ABOUT):  # few formulas need these
                 reasons.append(error)
             continue
         wide = rule == FACTORS and forms[-1].size[0] >= range_size((1 / USUAL, USUAL))[0]
-        if forms[-1].worst <= SURELY or wide:
+        if forms[-1].worst <= CLEARLY or wide:
             return _with_account(forms[-1], ends)
     if depth:
         with contextlib.suppress(UnreachableError):

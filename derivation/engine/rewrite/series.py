@@ -53,7 +53,7 @@ def truncated_taylor(terms: Terms, switch: sp.Rational, *, both_signs: bool = Fa
     """Return the truncated series of a sum about 0, with a relative error below 2^-55.
 
     The truncation error is bounded by Taylor's theorem term by term. The sum is at least its first
-    coefficient, less the magnitudes of all other terms unless they have the same sign. The bound
+    coefficient, minus the magnitudes of all other terms unless they have the same sign. The bound
     holds between -switch and switch if `both_signs`.
 
     Raises

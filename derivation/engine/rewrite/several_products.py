@@ -273,7 +273,7 @@ class _Writer:
         given = expression
         for rule in (logarithm, fraction, decay):
             given = next(rule(x, given), given)
-        assert isinstance(given, Shape)  # as `decay` returns for every expression
+        assert isinstance(given, Shape)  # `decay` always returns a shape
         value = self.write(given.front) if given.front.free_symbols else given.front
         value *= self._alone(x**given.power * sp.exp(given.rate * x), x)
         for factor in given.factors:

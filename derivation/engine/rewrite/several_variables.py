@@ -42,7 +42,7 @@ LEAST_VALUE, LARGEST_VALUE = 1e-200, 1e200
 """Smallest and largest magnitude that is tested, because parts of other values may overflow."""
 MOST_CONDITIONING = 1e8
 """Largest sum of condition numbers that is tested. With a much larger one, such as that of the sine
-of a huge product, an error of the product changes the value by more than the sum tells."""
+of a huge product, an error of the product changes the value by more than the sum shows."""
 STATED = 0.8, 1.5
 """Errors per sum of the condition numbers that are stated: the first if a form allows it. A product
 of variables that is rounded once has an error of up to 0.5, and a function of it near a singular
@@ -207,7 +207,7 @@ def _errors(
     points: Sequence[Point],
     allowed: float,
 ) -> dict[Point, float]:
-    """Return the errors at the points with a value [ULP, less a part of the conditioning]."""
+    """Return the errors at the points with a value [ULP, minus a part of the conditioning]."""
     with np.errstate(all="ignore"):
         got = function(*np.array(points).T).tolist()
     errors: dict[Point, float] = {}

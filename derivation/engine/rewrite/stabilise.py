@@ -220,7 +220,7 @@ def decayed(expression: sp.Expr, x: sp.Symbol) -> sp.Expr:
     names = [rule.name for rule in RULES]
     for rule in RULES[: names.index("decay") + 1]:
         form = next(rule.apply(x, form), form)
-    assert isinstance(form, Shape)  # as `decay` returns for every expression
+    assert isinstance(form, Shape)  # `decay` always returns a shape
     steps, value = assembled_form(form)
     assert isinstance(value, sp.Expr)  # switch points come later
     return value.xreplace({step.symbol: step.expression for step in steps})

@@ -34,7 +34,7 @@ REQUIRED = {
 """Largest budgets allowed."""
 
 RELATIVE = 9.0
-"""Relative error 2e-15 in ULP: once the common budget of all functions of the contact law."""
+"""The relative error 2e-15 in ULP, the former budget of every function of the contact law."""
 
 
 def git(*arguments: str) -> str | None:

@@ -74,7 +74,7 @@ def larger(yes: sp.Expr, no: sp.Expr, **more: str) -> Routine:
 
 
 @given(st.floats(0.1, 9), st.floats(0.1, 9))
-def test_each_side_of_a_choice_is_proved_under_its_condition(one: float, two: float) -> None:
+def test_each_side_of_a_choice_is_verified_under_its_condition(one: float, two: float) -> None:
     built = larger(x - y, y - x)
     assert len(built.proof.residuals) == 2
     assert run(built, one, two) == abs(one - two)
@@ -104,11 +104,9 @@ def test_choices_with_one_condition_share_a_mask() -> None:
 
 
 def test_unused_side_is_evaluated_at_a_safe_value() -> None:
-    harmless = {v: sp.Integer(1)}
-    nothing = "has no inverse"
-    choice = Choice(
-        u, v > 0, 1 / v, sp.Integer(0), safe_yes=harmless, unclaimed="no", reason=nothing
-    )
+    safe = {v: sp.Integer(1)}
+    reason = "has no inverse"
+    choice = Choice(u, v > 0, 1 / v, sp.Integer(0), safe_yes=safe, unclaimed="no", reason=reason)
     built = routine("inverse", (v,), (choice,), (u,), (1 / v,), "Inverse.", {})
     with np.errstate(divide="raise"):
         assert run(built, 0.0) == 0.0

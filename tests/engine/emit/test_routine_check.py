@@ -1,4 +1,4 @@
-"""Routines whose proof relies on a false statement are refused, because their code is wrong."""
+"""Routines whose proof relies on a false statement are rejected, because their code is wrong."""
 
 from typing import Any
 
@@ -66,7 +66,7 @@ def test_true_statements_are_accepted() -> None:
     ],
     ids=["meanings", "equality on a side", "limit", "reduce", "no value", "number of results"],
 )
-def test_false_statements_are_refused(
+def test_false_statements_are_rejected(
     results: tuple[sp.Expr, ...], claims: tuple[sp.Expr, ...], statements: tuple[Statement, ...],
     more: dict[str, Any],
 ) -> None:  # fmt: skip

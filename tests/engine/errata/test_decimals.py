@@ -42,7 +42,7 @@ def test_rounded_numbers_are_recognised() -> None:
 
 
 @pytest.mark.parametrize("second", ["1.41", "1.415", "1.4", "1.441"])
-def test_each_number_is_judged_by_its_digits(second: str) -> None:
+def test_each_number_is_compared_to_its_digits(second: str) -> None:
     found = compared(with_numbers("1.05", second))
     correct = abs(float(second) - 2**0.5) <= 0.5 * 10.0 ** (2 - len(second))
     assert found.kind == (ROUNDED if correct else NUMBER)
@@ -68,13 +68,13 @@ def test_other_differences_are_not_explained_by_numbers(given: sp.Expr) -> None:
 
 
 def test_the_exact_number_may_be_an_integral() -> None:
-    """It is sqrt(pi)/2 = 0.8862269."""
+    """The exact number is sqrt(pi)/2 = 0.8862269."""
     gauss = sp.Integral(sp.exp(-(b**2)), (b, 0, sp.oo))
     assert compared(a + sp.Rational("0.886") * a**2, a + gauss * a**2).kind == ROUNDED
     found = compared(a + sp.Rational("0.885") * a**2, a + gauss * a**2)
     assert "read 0.886227 instead of 0.885" in found.repair
 
 
-def test_a_float_is_refused_with_the_remedy() -> None:
+def test_a_float_is_rejected_with_the_remedy() -> None:
     with pytest.raises(FormulaError, match=r'got 1.05; write sp.Rational\("1.05"\)'):
         compared(sp.sqrt(a) * sp.Float("1.05"))

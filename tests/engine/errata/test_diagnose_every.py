@@ -1,4 +1,4 @@
-"""`diagnose` accepts every comparable quantity; rejected input gives a message, not a crash."""
+"""`diagnose` accepts every comparable quantity; rejected input gives a message, not a traceback."""
 
 import random
 from collections.abc import Mapping
@@ -150,7 +150,7 @@ def test_conditions_are_tested_exactly() -> None:
             holds(wrong, {a: third})
 
 
-def test_default_point_moves_to_a_real_value_but_a_given_point_does_not() -> None:
+def test_default_point_is_replaced_by_one_with_a_real_value_but_a_given_point_is_not() -> None:
     diagnosis = diagnose_text(
         "evanescent_wave_number", "k_n*sqrt(1 - kap*(17 - 7*nu)/(10*eta**2*k_n**2))", CHAIN
     )

@@ -47,7 +47,7 @@ def test_formulas_that_are_equal_inside_the_domain_are_equal(name: str, text: st
         ("kernel", "erf(90*m)*(cosh(m) - 1)/(sinh(m) + m)", "m = "),
     ],
 )
-def test_formulas_that_are_equal_in_a_part_of_the_domain_are_different(
+def test_formulas_that_are_equal_in_only_a_part_of_the_domain_are_different(
     name: str, text: str, where: str
 ) -> None:
     result = diagnosed(name, text)

@@ -14,10 +14,12 @@ from derivation.plate.vocabulary import PLATE
 
 CHAIN = formulas()
 FOUND = {f.printed: f.diagnosis.verdict for f in misprints(CHAIN)}
-WHOLE = [p for p in FOUND if type(p) is Printed and not p.full and not p.says and p.solved is None]
+COMPARED = [
+    p for p in FOUND if type(p) is Printed and not p.full and not p.says and p.solved is None
+]
 """Published equations that are compared as they are, without a statement in words."""
 DOTTED = {symbol for symbol, latex in PLATE.latex.items() if r"\dot" in latex}
-READ = [
+READABLE = [
     name
     for name in comparable(CHAIN)
     if not CHAIN[name].expression.has(sp.Derivative, sp.Integral, sp.beta, *DOTTED)
@@ -25,9 +27,9 @@ READ = [
 """All but derivatives, integrals and the beta function, whose LaTeX is not read."""
 
 
-@pytest.mark.parametrize("name", READ)
+@pytest.mark.parametrize("name", READABLE)
 def test_printed_latex_is_equal(name: str) -> None:
-    """Letters such as xi, gamma and u have several meanings; here they mean the formula's own."""
+    """Letters such as xi, gamma and u have several meanings; here those of the formula apply."""
     formula = CHAIN[name]
     text = f"{formula.latex} = {formula.sum_sign}" + to_latex(
         formula.expression, formula.vocabulary
@@ -42,13 +44,13 @@ def test_printed_latex_is_equal(name: str) -> None:
         r"\frac{2 \ln(\mathrm{e}^{T}) + \sinh(2T)}{2(\sinh^2(T) - T^2)}",
     ],
 )
-def test_usual_ways_to_write_functions_are_read(text: str) -> None:
+def test_usual_notations_of_functions_are_read(text: str) -> None:
     assert diagnose_text("G", text, CHAIN, latex=True).verdict == "equal"
 
 
-@pytest.mark.parametrize("printed", WHOLE, ids=lambda printed: printed.name)
+@pytest.mark.parametrize("printed", COMPARED, ids=lambda printed: printed.name)
 def test_published_equations_are_read_with_both_sides(printed: Printed) -> None:
-    """Typed anew, with number and punctuation, each is found right or wrong as before."""
+    """With both sides, number and punctuation, the result is that of the published expression."""
     formula, finding = CHAIN[printed.name], FOUND[printed]
     text = rf"$${printed.symbol} = {formula.sum_sign}{printed.latex}, \quad ({printed.equation})$$"
     assert diagnose_text(printed.name, text, CHAIN, latex=True, digits=5).verdict == finding
@@ -82,7 +84,7 @@ def test_equations_are_read(name: str, text: str, latex: bool) -> None:
         ("G == T", "2 equals signs"),
     ],
 )
-def test_other_equations_are_refused(text: str, reason: str) -> None:
+def test_other_equations_are_rejected(text: str, reason: str) -> None:
     for latex in (False, True):
         with pytest.raises(FormulaError, match=reason):
             diagnose_text("G", text, CHAIN, latex=latex)

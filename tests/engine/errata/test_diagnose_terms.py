@@ -85,9 +85,7 @@ def agree(one: sp.Expr, other: sp.Expr, seed: int) -> bool:
         ),
     ],
 )
-def test_the_correction_is_the_one_that_was_undone(
-    name: str, text: str, kind: str, repair: str
-) -> None:
+def test_the_correction_reverses_the_misprint(name: str, text: str, kind: str, repair: str) -> None:
     diagnosis = diagnose_text(name, text, CHAIN)
     assert (diagnosis.diagnosis.kind, diagnosis.repair) == (kind, repair)
     assert diagnosis.diagnosis.repaired is not None
@@ -125,7 +123,7 @@ def swaps() -> Iterator[tuple[str, sp.Expr]]:
         rest = list(derived.args)
         rest[rest.index(old)] = other**power
         wrong = derived.func(*rest)
-        # Next to the same symbol the swapped one merges with it, or cancels it.
+        # A swapped symbol next to an equal one would merge or cancel with it.
         if other not in derived.as_powers_dict() and other not in derived.args:
             yield name, wrong
 
@@ -141,6 +139,6 @@ def test_a_swapped_symbol_is_named_in_any_formula() -> None:
         assert agree(diagnosis.diagnosis.repaired, CHAIN[name].expression, 3)
 
 
-def test_powers_with_a_symbol_in_the_exponent_are_no_crash() -> None:
+def test_powers_with_a_symbol_in_the_exponent_cause_no_exception() -> None:
     diagnosis = diagnose_text("variational_ratio", "4**(-k - 1)*4**(k + 1)/(2*k)", CHAIN)
     assert diagnosis.verdict == "different"

@@ -1,4 +1,4 @@
-"""Misprints in formulas of textbooks: each correction is named as a reader would name it."""
+"""Misprints in formulas of textbooks: each correction is stated as a reader would state it."""
 
 import pytest
 import sympy as sp

@@ -40,13 +40,13 @@ def test_another_default_point_is_taken_if_the_formula_has_a_value_there() -> No
         assert abs(mpmath.mpf(diagnosis.given_value) / exact - 1) < 1e-28
 
 
-def test_a_point_that_was_chosen_is_refused() -> None:
+def test_a_given_point_without_a_value_is_rejected() -> None:
     with pytest.raises(FormulaError, match="no real value at"):
         diagnose_text("speed", SPEED.replace("+ v0", "- v0"), CHAIN, at={"v0": "1"})
 
 
-def test_a_candidate_with_an_imaginary_constant_is_no_crash() -> None:
-    """Of G_1 a root alone: pairs of edits try roots of negative numbers."""
+def test_a_correction_with_an_imaginary_constant_causes_no_exception() -> None:
+    """If only a root of G_1 is given, pairs of edits contain roots of negative numbers."""
     text = "-sqrt(-3*delta_0**(8/3)*xi_3/(4*m) - delta_0**2*xi_2/m + v0**2)"
     assert diagnose_text("G_1", text, CHAIN).verdict == "different"
 
@@ -71,13 +71,13 @@ def test_results_are_shown_on_one_line() -> None:
         (r"\sum_j K_j \left(1 + \sum_j a\right)", True),
     ],
 )
-def test_a_sum_within_a_sum_is_refused_with_its_remedy(text: str, latex: bool) -> None:
+def test_a_sum_within_a_sum_is_rejected_with_its_remedy(text: str, latex: bool) -> None:
     with pytest.raises(FormulaError, match=r"no sum within another sum.*give one term of it"):
         pc.diagnose("delta", text, latex=latex)
 
 
 @pytest.mark.parametrize("text", [r"a + \sum_{j=1}^{\infty} K_j", r"\sum_{j=1}^{9} K_j"])
-def test_a_latex_sum_of_another_kind_is_refused_with_its_remedy(text: str) -> None:
+def test_a_latex_sum_of_another_kind_is_rejected_with_its_remedy(text: str) -> None:
     with pytest.raises(FormulaError, match=r"give one term of the sum, or write c .sum_"):
         pc.diagnose("delta", text, latex=True)
 

@@ -16,7 +16,7 @@ KNOWN = {x.symbol: unit(x.unit) for x in ARGUMENTS}
 x = sp.Symbol("x", positive=True)
 
 
-def test_dimension_of_consistent_expressions() -> None:
+def test_dimension_follows_from_those_of_the_symbols() -> None:
     assert dimension(lam + 2 * mu, KNOWN) == STRESS
     assert dimension(sp.sqrt(a * h), KNOWN) == LENGTH
     assert dimension(a * sp.sin(a * phi), KNOWN) == LENGTH
@@ -42,7 +42,7 @@ def test_formula_rejects_a_wrong_unit_and_an_unknown_symbol() -> None:
 
 
 def test_a_formula_has_an_expression_that_its_proof_determines() -> None:
-    """Also one that is exactly half of it, or that is only shown, is rejected."""
+    """An expression is also rejected if it is half of the proved one, or is only displayed."""
     proof = prove("area", "", lambda f: {"slope": sp.diff(f, a) - 2 * a, "0": f.subs(a, 0)}, a**2)
     assert Formula("f", "f", "", a**2, "m^2", "", (), proof).expression == a**2
     with pytest.raises(ValueError, match="f: expected an expression that the proof 'area' determ"):

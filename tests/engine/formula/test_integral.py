@@ -1,4 +1,4 @@
-"""Integrals in ball arithmetic, against closed forms, mpmath, and integrals without a value."""
+"""Integrals in interval arithmetic: closed forms, mpmath, and integrals without a value."""
 
 import random
 from fractions import Fraction
@@ -127,10 +127,12 @@ def test_random_integrals_contain_the_value_of_mpmath() -> None:
         with mpmath.workdps(30):
             value = mpmath.quad(sp.lambdify(x, f, "mpmath"), [0, 0.5, 1])
         ball = evaluate(I(f, (x, 0, 1)), {}, 15)
-        assert abs(float(ball) - float(value)) < 1e-6 * abs(float(value))  # as exact as quad
+        assert abs(float(ball) - float(value)) < 1e-6 * abs(
+            float(value)
+        )  # the accuracy of mpmath here
 
 
-def test_terms_that_do_not_decay_cancel_far_out() -> None:
+def test_terms_that_do_not_decay_cancel_for_large_arguments() -> None:
     """The first coefficients of contact with an elastic layer on a rigid base, against mpmath."""
     double_sine, double_cosine = sp.sinh(2 * x), sp.cosh(2 * x)
     bonded = (2 * a * double_sine - 4 * x) / (2 * a * double_cosine + 1 + a**2 + 4 * x**2)

@@ -1,4 +1,4 @@
-"""LaTeX is read in the notation that a paper's vocabulary states for its symbols."""
+"""LaTeX is read in the notation that the vocabulary of a paper states for its symbols."""
 
 import pytest
 import sympy as sp
@@ -38,6 +38,6 @@ def test_notation_of_the_vocabulary_is_read(text: str, expected: sp.Expr) -> Non
 
 
 @pytest.mark.parametrize("text", [r"a^* + x", r"\DeltaE", "P''"])
-def test_other_notation_is_refused(text: str) -> None:
+def test_other_notation_is_rejected(text: str) -> None:
     with pytest.raises(ValueError, match=r"LaTeX token|unknown name"):
         parse_latex(text, WORDS)

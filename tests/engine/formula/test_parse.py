@@ -354,7 +354,7 @@ def test_printed_latex_of_all_formulas_is_parsed_to_the_same() -> None:
 
 
 @pytest.mark.parametrize("name", INSTEAD)
-def test_functions_that_are_not_read_are_refused_with_what_to_write_instead(name: str) -> None:
+def test_functions_that_are_not_read_are_rejected_with_what_to_write_instead(name: str) -> None:
     expect_error(parse, f"{name}(a, b)", re.escape(INSTEAD[name]))
     if name.isalpha():
         expect_error(parse_latex, rf"\{name}(a, b)", re.escape(INSTEAD[name]))

@@ -1,4 +1,4 @@
-"""Proofs: false identities that are true, or almost true, in one range only are not accepted."""
+"""Proofs: identities that are true, or almost true, in one range only are rejected."""
 
 from collections.abc import Callable
 

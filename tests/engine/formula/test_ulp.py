@@ -118,12 +118,12 @@ def test_reference_must_be_finite() -> None:
 
 
 @given(finite)
-def test_ordinal_and_back(x: float) -> None:
+def test_ordinal_and_its_inverse_give_the_same_double(x: float) -> None:
     assert from_ordinal(ordinal(x)) == x
 
 
 @given(singles)
-def test_single_ordinal_and_back(x: float) -> None:
+def test_ordinal_and_its_inverse_give_the_same_single(x: float) -> None:
     assert from_ordinal(ordinal(x, SINGLE), SINGLE) == x
 
 

@@ -48,7 +48,7 @@ def empty_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture
 def by(monkeypatch: pytest.MonkeyPatch) -> domain_grid.Judge:
     """Return references and points of a formula with a pole at an end of the common domain."""
-    return judged(pole("n < 1", "n + q <= 2"), monkeypatch, decades=100)
+    return judge_of(pole("n < 1", "n + q <= 2"), monkeypatch, decades=100)
 
 
 def test_points_satisfy_the_conditions_of_the_formula(by: domain_grid.Judge) -> None:
@@ -69,7 +69,7 @@ def test_a_domain_is_narrowed_for_one_formula_only() -> None:
 
 
 def test_the_form_is_tested_within_the_conditions() -> None:
-    """The distance to the end of the domain, 1 - n, is exact; without the condition as well."""
+    """The distance to the end of the domain, 1 - n, is exact, with and without the condition."""
     for given in (pole("n < 1"), pole()):
         made, decades = cached_form(given, {}, Scales(), 0.5)
         assert decades == 100
@@ -88,7 +88,7 @@ def test_parts_of_a_form_do_not_overflow_before_the_value() -> None:
     assert run(made.steps, made.value, at, {}) == pytest.approx(float(exact), rel=1e-15)
 
 
-def judged(formula: Number, monkeypatch: pytest.MonkeyPatch, **row: object) -> domain_grid.Judge:
+def judge_of(formula: Number, monkeypatch: pytest.MonkeyPatch, **row: object) -> domain_grid.Judge:
     """Return references and points of a formula with a row of the manifest."""
     chain = Chain("one", WORDS, (DerivationStep("one", lambda: (formula,)),), (), (Number,))
     arguments = [argument.name for argument in formula.arguments]
@@ -101,10 +101,10 @@ def judged(formula: Number, monkeypatch: pytest.MonkeyPatch, **row: object) -> d
 def test_points_lie_in_the_range_in_which_a_form_was_tested(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    by = judged(pole("n < 1"), monkeypatch, decades=30)
+    by = judge_of(pole("n < 1"), monkeypatch, decades=30)
     sizes = [point.values["n"] for point in by.grid("f", ["n", "q"], False)]
     assert min(size for size in sizes if size) == pytest.approx(1e-30)
-    by = judged(pole("n < 1"), monkeypatch, decades=0)  # a stated form states no range
+    by = judge_of(pole("n < 1"), monkeypatch, decades=0)  # a stated form has no tested range
     sizes = [point.values["n"] for point in by.grid("f", ["n", "q"], False)]
     assert min(size for size in sizes if size) < 1e-300
 
@@ -112,7 +112,7 @@ def test_points_lie_in_the_range_in_which_a_form_was_tested(
 def test_conditions_are_compared_as_in_the_function(monkeypatch: pytest.MonkeyPatch) -> None:
     """3 n < 2 q + 0.1 holds exactly at points at which the rounded sides are equal."""
     condition = "3 * n < 2 * q + 0.1"
-    by = judged(pole("n < 1", condition), monkeypatch, decades=100)
+    by = judge_of(pole("n < 1", condition), monkeypatch, decades=100)
     points = by.grid("f", ["n", "q"], False)
     assert points
     assert all(3 * p.values["n"] < 2 * p.values["q"] + 0.1 for p in points)
@@ -122,7 +122,7 @@ def test_a_root_at_the_end_of_its_domain_has_a_value(monkeypatch: pytest.MonkeyP
     """The slope of q - sqrt(1 - n) is infinite where n = 1, and any finite result is allowed."""
     proof = prove("Given", "Given.", {"nothing": sp.Integer(0)})
     root = Number("f", "f", "a root", q - sp.sqrt(1 - n), "1", "", (), proof)
-    by = judged(root, monkeypatch, decades=100)
+    by = judge_of(root, monkeypatch, decades=100)
     end = Point({"n": 1.0, "q": 2.0})
     [found] = reference_values(by.routes.balls, "f", [end], 50)
     assert found.references[0].value == 2
@@ -132,13 +132,13 @@ def test_a_root_at_the_end_of_its_domain_has_a_value(monkeypatch: pytest.MonkeyP
         reference_values(by.routes.balls, "f", [Point({"n": 1.5, "q": 2.0})], 50)
 
 
-def test_a_kink_without_slope_is_judged_by_the_slope_beside_it(
+def test_error_at_a_kink_is_evaluated_with_the_slope_next_to_it(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Balls have no slope of sqrt((1 - n)^2) at n = 1, where it is finite on both sides."""
+    """Arb has no slope of sqrt((1 - n)^2) at n = 1, where it is finite on both sides."""
     proof = prove("Given", "Given.", {"nothing": sp.Integer(0)})
     kink = Number("f", "f", "a kink", q + sp.sqrt((1 - n) ** 2), "1", "", (), proof)
-    by = judged(kink, monkeypatch, decades=100)
+    by = judge_of(kink, monkeypatch, decades=100)
     [found] = reference_values(by.routes.balls, "f", [Point({"n": 1.0, "q": 2.0})], 50)
     assert found.references[0].value == 2
     assert judge(2.0, found.references[0], 1.0).ratio == 0
@@ -146,7 +146,7 @@ def test_a_kink_without_slope_is_judged_by_the_slope_beside_it(
 
 
 def test_domains_of_large_and_small_numbers_have_points() -> None:
-    """A Reynolds number from 2,000 is larger than the numbers that are drawn first."""
+    """A Reynolds number above 2,000 is larger than the numbers that are drawn first."""
     large, small = sp.symbols("Re k", positive=True)
     words = Vocabulary(
         (

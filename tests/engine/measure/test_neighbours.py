@@ -1,4 +1,4 @@
-"""The double nearest to a root, against square roots, which `math.sqrt` rounds correctly."""
+"""The double nearest to a root, compared with `math.sqrt`, which rounds correctly."""
 
 import math
 

@@ -54,7 +54,7 @@ def search_result(target: Target) -> Search:
 
 
 def test_defect_is_found_refined_and_reproduced(search_result: Search, target: Target) -> None:
-    worst = search_result.standings["square"].worst
+    worst = search_result.states["square"].worst
     assert worst is not None
     assert 3 < worst.point.values["x"] < 3.01
     assert worst.ratio > 1.999  # the largest value is 2, at y = x
@@ -69,7 +69,7 @@ def test_found_case_is_written_and_then_known(
     book = SearchRecord(path, [target], {"square": 1.5}, {})
     book.keep(search_result)
     [case] = read(path)
-    worst = search_result.standings["square"].worst
+    worst = search_result.states["square"].worst
     assert worst is not None
     assert case.points == [worst.point.values]
     assert not SearchRecord(path, [target], {}, {}).is_new("square", worst)
@@ -80,7 +80,7 @@ def test_recorded_arguments_are_compared_with_the_new_error(target: Target) -> N
     book = SearchRecord(Path("/nonexistent"), [target], {}, known)
     [(result,)] = squares([Point({"x": 3.005, "y": 3.105})])
     same = error(Point({"x": 3.005, "y": 3.105}), (result,))
-    worst = search([target], seed=2, evaluations=EVALUATIONS).standings["square"].worst
+    worst = search([target], seed=2, evaluations=EVALUATIONS).states["square"].worst
     assert worst is not None
     assert book.is_new("square", worst)
     within = dataclasses.replace(worst, error=Error(0.9, 1.0))

@@ -40,13 +40,13 @@ def close(ball: flint.arb, expected: mpf | str, digits: int) -> bool:
 # --- zeros of J0
 
 
-def test_first_zero() -> None:
+def test_first_zero_agrees_with_the_published_one() -> None:
     assert first_zero_is_first()
     assert close(j0_zero(1, 180), FIRST_ZERO, 50)
 
 
 @pytest.mark.parametrize("index", [2, 3, 10, 77, 1000, 10**6])
-def test_zeros_against_mpmath(index: int) -> None:
+def test_zeros_agree_with_mpmath(index: int) -> None:
     with mp.workdps(60):
         assert close(j0_zero(index, 180), mp.nstr(mp.besseljzero(0, index), 58), 50)
         assert close(
@@ -259,7 +259,7 @@ def test_singular_point_is_rejected() -> None:
         certified_value("G", {"T": math.nan})
 
 
-def test_arguments_are_checked() -> None:
+def test_invalid_arguments_are_rejected() -> None:
     with pytest.raises(KeyError, match="missing: \\['T'\\]"):
         certified_value("G", {})
     with pytest.raises(KeyError, match="unknown: \\['q'\\]"):

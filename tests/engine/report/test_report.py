@@ -67,7 +67,7 @@ def test_committed_report_is_up_to_date() -> None:
         ("\\", r"\textbackslash{}"),
     ],
 )
-def test_escape(plain: str, latex: str) -> None:
+def test_special_characters_are_escaped(plain: str, latex: str) -> None:
     assert escape(plain) == latex
 
 

@@ -1,4 +1,4 @@
-"""Tables and figures of the report with missing data: empty cells and omitted rows."""
+"""Tables and figures of a report with missing data have empty cells or omit rows."""
 
 import json
 import shutil

@@ -1,4 +1,4 @@
-"""Errors of a function at a point, from exact values, with its condition numbers."""
+"""Errors of a function at a point, from exact values and condition numbers."""
 
 import math
 from collections.abc import Callable, Sequence

@@ -115,7 +115,7 @@ def test_an_ill_conditioned_square_ends_the_range() -> None:
     assert mpmath.isfinite(tested.limit)
 
 
-def test_the_rounding_of_a_power_is_bounded_where_no_tested_point_shows_it() -> None:
+def test_rounding_of_a_power_is_included_between_the_tested_points() -> None:
     """Points close to the end of the range have errors of u = sqrt(x) up to half a unit."""
     stable = pc.rewrite("1 - cos(sqrt(x))")
     names: dict[str, Any] = {}
@@ -132,7 +132,7 @@ def test_the_rounding_of_a_power_is_bounded_where_no_tested_point_shows_it() -> 
 
 
 @pytest.mark.parametrize("formula", ["erf(x)/x", "gamma(x + 1) - 1", "erfc(x)*exp(x**2)"])
-def test_a_function_that_numpy_does_not_have_is_refused(formula: str) -> None:
+def test_a_function_that_numpy_does_not_have_is_rejected(formula: str) -> None:
     with pytest.raises(ValueError, match="expected functions of NumPy"):
         pc.rewrite(formula)
 
@@ -149,7 +149,7 @@ def test_a_function_that_numpy_does_not_have_is_refused(formula: str) -> None:
 def test_a_power_with_a_rounded_exponent_is_accurate_for_usual_numbers(
     formula: str, exact: Callable[[mpf], mpf]
 ) -> None:
-    """Of a huge number, the logarithm multiplies the error of the exponent."""
+    """For a huge number, its logarithm multiplies the error of the exponent."""
     form = pc.rewrite(formula)
     assert form.tested.low <= 1e-9
     assert form.tested.high >= 1e9

@@ -96,12 +96,12 @@ def test_a_variable_is_positive_unless_a_condition_allows_other_numbers(
         ("nu > 1 and nu < 2", "expected a condition like"),
     ],
 )
-def test_other_conditions_are_refused(where: str, reason: str) -> None:
+def test_other_conditions_are_rejected(where: str, reason: str) -> None:
     with pytest.raises(ValueError, match=reason):
         rewrite_text("1 - 2*nu", where=[where])
 
 
-def test_conditions_that_exclude_each_other_are_refused() -> None:
+def test_conditions_that_exclude_each_other_are_rejected() -> None:
     message = (
         r"1 - 2\*nu cannot be tested: none of 1600 random points satisfies nu > 1, nu < 0.5; these "
         "conditions exclude each other"
@@ -110,7 +110,7 @@ def test_conditions_that_exclude_each_other_are_refused() -> None:
         rewrite_text("1 - 2*nu", where=["nu > 1", "nu < 0.5"])
 
 
-def test_a_formula_without_values_in_its_domain_is_refused_with_the_reason() -> None:
+def test_a_formula_without_values_in_its_domain_is_rejected_with_the_reason() -> None:
     with pytest.raises(ValueError, match="at 0 of the tested points, expected 100; correct the"):
         rewrite_text("sqrt(x - 2)", where=["x < 1"])
 

@@ -1,4 +1,4 @@
-"""Proofs of stated forms: what a form limits or takes the size of is not ignored."""
+"""Proofs of stated forms: limits and absolute values in a form are not ignored."""
 
 import pytest
 import sympy as sp
@@ -11,11 +11,11 @@ x = sp.Symbol("x", real=True)
 
 
 def prove_form(formula: sp.Expr, steps: tuple[Step, ...], value: sp.Expr) -> str:
-    """Return the method of the proof."""
+    """Return the method by which the form is proved."""
     return form("f", "module", formula, steps, value, {}).proof.method
 
 
-def test_the_size_of_an_argument_is_equal_in_even_functions_only() -> None:
+def test_the_absolute_value_of_an_argument_is_accepted_in_even_functions_only() -> None:
     even = sp.cosh(x) / (1 + x**2)
     assert prove_form(even, (Step(z, sp.Abs(x)),), sp.cosh(z) / (1 + z**2)) == SYMBOLIC
     for formula in (x, sp.sinh(x), x**3 + x**2):

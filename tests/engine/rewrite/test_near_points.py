@@ -56,7 +56,7 @@ def test_series_about_a_point_hold_on_both_sides(
 
 
 def test_a_truncation_error_is_bounded_for_negative_arguments() -> None:
-    """Of the exponential series, the sum is smallest at a negative argument."""
+    """The sum of this exponential series is smallest at a negative argument."""
     terms, end = terms_of(sp.exp(x) - 1 - x, x), sp.Integer(1)
     one, both = (truncated_taylor(terms, end, both_signs=both) for both in (False, True))
     assert both.bound > one.bound
@@ -84,7 +84,7 @@ def test_points_at_which_a_logarithm_or_an_argument_is_zero(
     assert set(cancelling_points(formula, x)) == set(points)
 
 
-def test_a_sum_without_a_series_of_this_kind_is_refused() -> None:
+def test_a_sum_without_a_series_of_this_kind_is_rejected() -> None:
     with pytest.raises(UnreachableError, match="the series of log1p"):
         about_point(sp.exp(x - 1) - 1 - sp.log(x), x, sp.Integer(1))
 

@@ -66,7 +66,7 @@ def test_form_is_equal_and_accurate_in_every_variable(name: str) -> None:
         (a * sp.besselj(0, c), "no rule applies to the function besselj"),
     ],
 )
-def test_other_formulas_are_refused(value: sp.Expr, reason: str) -> None:
+def test_other_formulas_are_rejected(value: sp.Expr, reason: str) -> None:
     with pytest.raises(UnreachableError, match=reason):
         of_products(formula(value), lambda made: (made, 0.0))
 

@@ -121,7 +121,7 @@ def test_functions_of_the_thin_plate_are_continuous_at_zero() -> None:
         assert abs(contact_tables.shape(arb(2) ** -20) - 1 + arb(2) ** -40 / 10) < 1e-24
         assert contact_tables.thin_part(arb(0)) == 0
         halves = [contact_tables.thin_part(arb(2) ** -k) for k in (10, 11)]
-        assert abs(halves[0] / halves[1] - 16) < 1e-4  # as A^4
+        assert abs(halves[0] / halves[1] - 16) < 1e-4  # it is proportional to A^4
 
 
 def test_table_with_a_large_truncation_error_is_rejected(
@@ -172,13 +172,13 @@ def test_tail_bound_of_simple_impacts_needs_enough_modes(monkeypatch: pytest.Mon
     "formula",
     ["log(x + sqrt(x**2 + x + 1))", "atan(x) - pi/4 - (x - 1)/2", "exp(x) - sqrt(1 + 2*x)"],
 )
-def test_a_range_does_not_leave_out_where_the_formula_cancels(formula: str) -> None:
-    """These are accurate in a part of the range without any rule, which would be no help."""
+def test_a_range_includes_the_points_of_cancellation(formula: str) -> None:
+    """These formulas are accurate in a part of the range without any rule, which is of no use."""
     with pytest.raises(ValueError, match="the rules give a form"):
         pc.rewrite(formula)
 
 
 @pytest.mark.parametrize("formula", ["log(-x)", "x - x", "sin(x)**2 + cos(x)**2 - 1"])
-def test_a_formula_without_values_is_refused(formula: str) -> None:
+def test_a_formula_without_values_is_rejected(formula: str) -> None:
     with pytest.raises(ValueError, match=r"has values other than 0, .* of the tested points x > 0"):
         pc.rewrite(formula)

@@ -67,7 +67,7 @@ def formula(name: str, value: sp.Expr) -> GivenFormula:
 def generated(
     given: GivenFormula, share: str, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> tuple[Callable[..., np.ndarray], int]:
-    """Return the generated function, and the decades in which its form was tested."""
+    """Return the generated function, and the decades of arguments in which its form was tested."""
     budgets = folder / "budgets.toml"
     rule = f'[rule.value]\ntext = "the value"\n[rule.zeros]\nshare = {share}\nkernels = ["f"]\n'
     budgets.write_text(f"[ulp]\nf = 8\n{rule}")
@@ -108,7 +108,7 @@ def test_code_is_accurate_in_all_arguments_together(
     assert compared > 100
 
 
-def test_an_inner_zero_is_refused_with_the_share_that_allows_it(
+def test_an_inner_zero_is_rejected_with_the_share_that_allows_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     given = formula("f", k * ((1 + nu) * sp.log(h / x) - 1))
@@ -147,17 +147,17 @@ def test_a_form_is_searched_once_until_the_formula_or_its_domain_changes(
     monkeypatch.setattr(found_form, "found_form", counted)
     given = formula("f", 1 - sp.exp(-T * s))
     narrower = replace(given, where=("s < 2",))
-    refused = formula("g", k * sp.besselj(0, s))
+    rejected = formula("g", k * sp.besselj(0, s))
     for one in (given, narrower, given, narrower, formula("f", 1 - sp.exp(-2 * T * s))):
         made, _ = found_form.cached_form(one, {}, Scales(), 0.5)
         assert made.value.has(sp.Function("expm1")) or made.steps
     for _ in range(2):
         with pytest.raises(UnreachableError, match="besselj"):
-            found_form.cached_form(refused, {}, Scales(), 0.5)
+            found_form.cached_form(rejected, {}, Scales(), 0.5)
     assert searched == ["f", "f", "f", "g"]
 
 
-def test_several_refusals_are_reported_together(tmp_path: Path) -> None:
+def test_several_rejections_are_reported_together(tmp_path: Path) -> None:
     value = k * sp.besselj(0, s)
     named = {name: formula(name, value) for name in ("f", "g")}
     budgets = tmp_path / "budgets.toml"

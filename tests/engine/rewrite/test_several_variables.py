@@ -101,7 +101,7 @@ def test_arrays_are_broadcast() -> None:
         ("besselj(0, a)*b", "expected functions of NumPy"),
     ],
 )
-def test_other_formulas_are_refused(text: str, reason: str) -> None:
+def test_other_formulas_are_rejected(text: str, reason: str) -> None:
     with pytest.raises(ValueError, match=reason):
         rewrite_text(text)
 
@@ -140,7 +140,7 @@ def test_the_inverse_of_a_product_is_used_if_it_is_more_accurate() -> None:
 
 
 def test_cube_roots_are_accurate_for_extreme_arguments() -> None:
-    """As an exponent, the double nearest to 1/3 costs up to 57 ULP."""
+    """With the double nearest to 1/3 as exponent, errors are up to 57 ULP."""
     x = sp.Symbol("x", positive=True)
     for value in (1e-150, 7e-101, 3e99, 1e150):
         root = eval(to_numpy(x ** sp.Rational(1, 3)), {"np": np, "x": np.float64(value)})

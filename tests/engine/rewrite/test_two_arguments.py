@@ -35,7 +35,7 @@ POINTS = 100
 
 
 def some_point(draw: random.Random, count: int, decades: float) -> list[float]:
-    """Return numbers of any magnitude, in every second point with two that are nearly equal."""
+    """Return numbers of any magnitude; in every second point, two are nearly equal."""
     point = [10 ** draw.uniform(-decades, decades) for _ in range(count)]
     if draw.random() < 0.5:
         one, other = draw.sample(range(count), 2)
@@ -132,7 +132,7 @@ def test_a_wrong_case_of_nested_bounds_is_rejected() -> None:
     positive, negative = (bound(p, 0) - bound(q, 0) for bound in (sp.Max, sp.Min))
     prove_identity(positive + negative, p - q)
     prove_identity(sp.Max(positive, 0) + sp.Min(positive, 0) + negative, p - q)
-    with pytest.raises(UnreachableError, match="not proved"):  # it holds for p > q > 0 only
+    with pytest.raises(UnreachableError, match="not proved"):  # it is valid for p > q > 0 only
         prove_identity(sp.Max(positive, 0) + negative, p - q)
 
 

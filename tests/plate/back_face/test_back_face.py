@@ -284,7 +284,7 @@ def resultant(distance: Array, pressure: Array) -> float:
 @pytest.mark.parametrize("inertia", [False, True])
 @pytest.mark.parametrize("speed", [3.0, 24.0])
 def test_profile_of_a_plastic_contact_carries_the_force(speed: float, inertia: bool) -> None:
-    """A soft sphere, whose contact is wider than the plate is thick, and a hard one."""
+    """The contact of the soft sphere is wider than the plate thickness."""
     soft = pc.Sphere(
         radius=0.01, youngs_modulus=1e8, poissons_ratio=0.3, density=1100.0, yield_stress=1e7
     )

@@ -140,7 +140,7 @@ def method(values: Callable[[Any], Any], **others: Any) -> Method:
     return Method("law", "m", "", lambda *_: values, split="all", **others)
 
 
-def right(a: Any) -> Any:
+def generated_law(a: Any) -> Any:
     return indentation(a, PAPER.R, PAPER.h, PAPER.b)
 
 
@@ -158,15 +158,17 @@ def test_failing_methods_are_named_and_not_timed() -> None:
 
     If all methods fail without usable numbers, nothing is timed.
     """
-    partly = method(lambda a: np.where(a > np.median(a), right(a), np.nan))
-    actual = panels.panel("law", PAPER, [partly, method(right, fails=lambda _: "too thin")], True)
+    partly = method(lambda a: np.where(a > np.median(a), generated_law(a), np.nan))
+    actual = panels.panel(
+        "law", PAPER, [partly, method(generated_law, fails=lambda _: "too thin")], True
+    )
     assert (actual.vector, actual.single) == (None, None)
     assert [row.fails for row in actual.rows] == [
         "gives no number in part of the case",
         "too thin",
     ]
     assert [row.vector for row in actual.rows] == [None, None]
-    [row] = panels.panel("law", PAPER, [method(lambda a: 9.0 * right(a))], True).rows
+    [row] = panels.panel("law", PAPER, [method(lambda a: 9.0 * generated_law(a))], True).rows
     assert row.fails == "no correct digit: relative error up to 8"
     assert row.vector is not None  # it is timed because it returns numbers
     assert list(pareto._panel([actual.rows[0]], "vector")) == []
@@ -176,13 +178,13 @@ def test_failing_methods_are_named_and_not_timed() -> None:
 def test_slow_methods_are_called_once_with_a_shorter_array(monkeypatch: Patch) -> None:
     sizes = list[int]()
 
-    def noted(a: Any) -> Any:
+    def recording(a: Any) -> Any:
         sizes.append(np.size(a))
-        return right(a)
+        return generated_law(a)
 
     monkeypatch.setattr(panels, "SLOW_CALL", -1.0)
     monkeypatch.setattr(panels, "SLOW_ARRAY", 7)
-    actual = panels.panel("law", PAPER, [method(noted), method(noted, scalar=True)], True)
+    actual = panels.panel("law", PAPER, [method(recording), method(recording, scalar=True)], True)
     assert (actual.vector, actual.single) == (None, None)
     assert sizes.count(7) == 1
     many, alone = actual.rows
@@ -193,13 +195,13 @@ def test_slow_methods_are_called_once_with_a_shorter_array(monkeypatch: Patch) -
 
 @pytest.mark.usefixtures("fewer_digits")
 def test_scalar_methods_are_timed_with_single_calls() -> None:
-    actual = panels.panel("law", PAPER, [method(right, scalar=True)], True)
+    actual = panels.panel("law", PAPER, [method(generated_law, scalar=True)], True)
     assert actual.vector is None
     [row] = actual.rows
     assert row.errors is not None
     assert row.errors.total > 14.0
     assert row.vector == row.single is not None
-    assert panels.panel("impact", PAPER, [method(right)], True).rows == ()
+    assert panels.panel("impact", PAPER, [method(generated_law)], True).rows == ()
 
 
 # --- winners

@@ -55,7 +55,7 @@ def law() -> Problem:
 
 
 @pytest.fixture(scope="module")
-def pressed() -> Problem:
+def inverse() -> Problem:
     """Return the inversion problem of the thick plate at two indentations."""
     depths = np.array([1e-4, 0.1])
     actual = [contact_balls.contact_radius(d, THICK.R, THICK.h, THICK.b, 40) for d in depths]
@@ -72,18 +72,18 @@ def bounce(case) -> Problem:
 
 
 @pytest.fixture(scope="module")
-def bounced() -> Problem:
+def rebound() -> Problem:
     """Return the problem of the paper's impact."""
     return bounce(PAPER)
 
 
 @pytest.fixture(scope="module")
-def deep() -> Problem:
+def wide() -> Problem:
     """Return the problem of the impact with a large contact."""
     return bounce(LARGE)
 
 
-def judged(method: Method, task: Problem) -> BenchmarkErrors:
+def checked(method: Method, task: Problem) -> BenchmarkErrors:
     """Return the errors, and check that both parts are known and add up to the total."""
     with np.errstate(all="ignore"):
         actual = measure_errors(method, task, lambda: 0.0).errors
@@ -289,10 +289,10 @@ SPLITS = {
 
 
 @pytest.mark.parametrize("task", SPLITS)
-def test_truncation_and_rounding_are_separated(task: str, law, pressed, bounced) -> None:
-    where = {"law": law, "inversion": pressed, "impact": bounced}[task]
+def test_truncation_and_rounding_are_separated(task: str, law, inverse, rebound) -> None:
+    where = {"law": law, "inversion": inverse, "impact": rebound}[task]
     for method, truncation, rounding in SPLITS[task]:
-        evaluation = judged(method, where)
+        evaluation = checked(method, where)
         assert evaluation.truncation == pytest.approx(truncation, abs=0.8), method.name
         assert evaluation.rounding == pytest.approx(rounding, abs=1.5), method.name
         assert bool(evaluation.remark) == (method.split == "units")
@@ -303,22 +303,22 @@ def test_truncation_in_long_doubles_equals_that_in_more_digits(law: Problem) -> 
     task = replace(law, points=RADII[1:], reference_values=law.reference_values[1:])
     method = sums.direct(1500)
     assert method.split == "long"
-    evaluation, again = judged(method, task), judged(replace(method, split="wide"), task)
+    evaluation, again = checked(method, task), checked(replace(method, split="wide"), task)
     assert evaluation.truncation == pytest.approx(again.truncation, abs=1e-9)
     assert evaluation.rounding == pytest.approx(again.rounding, abs=0.02)
 
 
-def test_separation_by_units_agrees_with_separation_by_digits(law, pressed, bounced) -> None:
+def test_separation_by_units_agrees_with_separation_by_digits(law, inverse, rebound) -> None:
     """Splitting errors by other units or by more digits gives the same parts.
 
     If truncation is below rounding, the estimate is only a bound.
     """
     for method, where in (
         (sums.split(16, 2), law), (polynomials.small_contacts(4), law),
-        (polynomials.small_contacts(16), law), (inversion.reversed_series(12), pressed),
-        (laws.newton(4, SINGLE), pressed), (motion.gauss(8), bounced),
+        (polynomials.small_contacts(16), law), (inversion.reversed_series(12), inverse),
+        (laws.newton(4, SINGLE), inverse), (motion.gauss(8), rebound),
     ):  # fmt: skip
-        exact, estimate = judged(method, where), judged(replace(method, split="units"), where)
+        exact, estimate = checked(method, where), checked(replace(method, split="units"), where)
         assert estimate.rounding == pytest.approx(exact.rounding, abs=1.2), method.name
         seen = min(exact.truncation, exact.rounding)
         assert estimate.truncation == pytest.approx(seen, abs=1.2), method.name
@@ -326,7 +326,7 @@ def test_separation_by_units_agrees_with_separation_by_digits(law, pressed, boun
             assert estimate.truncation == pytest.approx(exact.truncation, abs=0.01)
 
 
-def test_force_with_fewer_bits_counts_as_rounding(bounced, monkeypatch) -> None:
+def test_force_with_fewer_bits_counts_as_rounding(rebound, monkeypatch) -> None:
     exact = motion.scalar_force
 
     def short(case):
@@ -334,13 +334,13 @@ def test_force_with_fewer_bits_counts_as_rounding(bounced, monkeypatch) -> None:
         return lambda x: float(np.float32(force(x)))
 
     monkeypatch.setattr(motion, "scalar_force", short)
-    assert 6.3 < judged(motion.solver("LSODA", 1e-6), bounced).rounding < 9.5
+    assert 6.3 < checked(motion.solver("LSODA", 1e-6), rebound).rounding < 9.5
 
 
 @pytest.mark.parametrize("name", ["DOP853", "Radau", "LSODA"])
-def test_truncation_of_a_solver_decreases_with_its_tolerance(bounced, deep, name: str) -> None:
-    for where in (bounced, deep):
-        loose, tight = (judged(motion.solver(name, rtol), where) for rtol in (1e-6, 1e-9))
+def test_truncation_of_a_solver_decreases_with_its_tolerance(rebound, wide, name: str) -> None:
+    for where in (rebound, wide):
+        loose, tight = (checked(motion.solver(name, rtol), where) for rtol in (1e-6, 1e-9))
         assert loose.truncation + 1.5 < tight.truncation < tight.rounding
         assert loose.truncation == pytest.approx(loose.total, abs=0.05)
 
@@ -351,15 +351,15 @@ def test_spread_has_mean_and_standard_deviation() -> None:
     assert float(actual.rad()) == pytest.approx(1)
 
 
-def test_unseparated_errors_have_a_reason(bounced, monkeypatch) -> None:
+def test_unseparated_errors_have_a_reason(rebound, monkeypatch) -> None:
     monkeypatch.setattr(errors, "HAS_LONG_DOUBLE", False)
-    actual = errors.separated_errors(sums.direct(2000), replace(bounced, points=RADII[:1]), [1.0])
+    actual = errors.separated_errors(sums.direct(2000), replace(rebound, points=RADII[:1]), [1.0])
     assert (actual.truncation, actual.rounding) == (None, None)
     assert "long double" in (actual.unsplit or "")
 
 
-def test_methods_without_truncation_have_only_rounding(pressed) -> None:
-    actual = measure_errors(ready_methods.generated_force(), pressed, lambda: 0.0).errors
+def test_methods_without_truncation_have_only_rounding(inverse) -> None:
+    actual = measure_errors(ready_methods.generated_force(), inverse, lambda: 0.0).errors
     assert (actual.truncation, actual.rounding) == (None, actual.total)
     assert actual.total > 14.5
 
@@ -374,7 +374,7 @@ def test_digits_of_nan_and_of_exact_values() -> None:
 # --- Arb intervals
 
 
-def test_radius_of_an_interval_is_rounding(bounced, monkeypatch) -> None:
+def test_radius_of_an_interval_is_rounding(rebound, monkeypatch) -> None:
     """The radius of an interval is unchanged without the bounds of omitted terms."""
     p, made, called_with = PAPER, contact_sums._panels, []
 
@@ -395,6 +395,6 @@ def test_radius_of_an_interval_is_rounding(bounced, monkeypatch) -> None:
         assert float(bare.rad() / ball.rad()) == pytest.approx(1, rel=1e-6)
     assert called_with
     monkeypatch.undo()
-    actual = measure_errors(ready_methods.arb_reference("impact", 30), bounced, lambda: 0.0).errors
+    actual = measure_errors(ready_methods.arb_reference("impact", 30), rebound, lambda: 0.0).errors
     assert actual.truncation is actual.unsplit is None
     assert actual.rounding == actual.total > 30

@@ -52,7 +52,7 @@ def test_coefficients_give_the_correction(eta: float, fmt: Format) -> None:
 
 
 @pytest.mark.parametrize("eta", [*ETAS, 1e-4, 1e-6])
-def test_inversion_round_trip(eta: float) -> None:
+def test_contact_radius_inverts_the_indentation(eta: float) -> None:
     random = np.random.default_rng(3)
     top = min(6.0, 0.9999999 / eta)
     A = np.concatenate((10 ** random.uniform(-12, np.log10(top), 300), [top]))
@@ -60,7 +60,7 @@ def test_inversion_round_trip(eta: float) -> None:
     assert np.abs(back / A - 1).max() < 2e-15
 
 
-def test_force_and_its_inverse() -> None:
+def test_radius_of_force_inverts_the_force() -> None:
     a = np.geomspace(1e-9, 1e-3, 50)
     P = law.force_of_radius(a, 0.02, LAM, MU)
     assert np.abs(law.radius_of_force(P, 0.02, LAM, MU) / a - 1).max() < 1e-15
@@ -127,13 +127,13 @@ def test_impact_up_to_the_limit_of_the_law(b: float, end: float) -> None:
     assert abs(result.max_contact_radius / end - 1) < 1e-12
 
 
-def test_hertz_limit() -> None:
+def test_small_contacts_agree_with_hertz() -> None:
     result = impact.impact(0.01, 0.03, 1e-30, 5.0, 9.0, LAM, MU)
     ratio = result.contact_time * 1e-30 / result.max_indentation
     assert abs(ratio / HERTZ_TIME - 1) < 1e-14
 
 
-def test_linear_spring_limit() -> None:
+def test_compliant_plates_agree_with_a_linear_spring() -> None:
     result = impact.impact(1e3, 1e-9, 1e-3, 1e-8, 10.0, LAM, MU)  # c1 A is 2e17
     ratio = result.contact_time * 1e-3 / result.max_indentation
     assert abs(ratio / np.pi - 1) < 1e-14

@@ -64,7 +64,7 @@ def test_kappa_agrees_with_quadrature(n: int) -> None:
         (4, "41.9670644769000627482199"),
     ],
 )
-def test_finite_parts(k: int, value: str) -> None:
+def test_finite_parts_have_the_known_values(k: int, value: str) -> None:
     assert close(contact_balls.finite_part(k, 30), value, 22)
 
 

@@ -139,7 +139,7 @@ def test_divergence_follows_from_the_terms() -> None:
     assert divergence.tail(term).kind == divergence.CONVERGENT
 
 
-def calmed(terms: Sequence[mp.mpf]) -> mp.mpf:
+def averaged_sum(terms: Sequence[mp.mpf]) -> mp.mpf:
     """Return the sum of a slowly oscillating series by three running means of partial sums."""
     sums = [mp.mpf(0)]
     for term in terms:
@@ -162,7 +162,7 @@ def test_sum_identity_with_the_sonine_integral(ratio: str) -> None:
         terms = [(mp.sin(r * j) - r * j * mp.cos(r * j)) / (j**4 * J**2) for j, J in zeros(800)]
         side = lateral_integral(lambda y: (r * y * mp.cosh(r * y) - mp.sinh(r * y)) / y**3)
         expected = mp.pi * r**2 / 8 - side / mp.pi
-        assert abs(calmed(terms) - expected) < mp.mpf("1e-8")
+        assert abs(averaged_sum(terms) - expected) < mp.mpf("1e-8")
 
 
 def test_identity_holds_in_interval_arithmetic() -> None:
@@ -199,12 +199,14 @@ def test_split_agrees_with_the_modal_sum(
             / (j**4 * J**2)
             for j, J in zeros(800)
         ]
-        assert abs(calmed(terms) - 1 - split_of(formulas, r, e)) < mp.mpf("1e-7")
+        assert abs(averaged_sum(terms) - 1 - split_of(formulas, r, e)) < mp.mpf("1e-7")
 
 
 @pytest.mark.parametrize("eta_text", ETAS)
 @pytest.mark.parametrize("k", [2, 3, 4, 5])
-def test_coefficients(formulas: Mapping[str, Formula], k: int, eta_text: str) -> None:
+def test_coefficients_agree_with_a_direct_sum(
+    formulas: Mapping[str, Formula], k: int, eta_text: str
+) -> None:
     with mp.workdps(30):
         expected = c_by_sum(k, mp.mpf(eta_text))
         got = recorded(formulas, k, eta_text)
@@ -236,7 +238,7 @@ def test_only_the_lateral_surface_remains_for_thick_plates() -> None:
 
 
 @pytest.mark.parametrize("n", [0, 2, 4])
-def test_kappa(n: int) -> None:
+def test_kappa_agrees_with_quadrature(n: int) -> None:
     got = plate_series.kappa_ball(n, 30)
     assert got.rel_accuracy_bits() > 99
     assert abs(ball(got) / lateral_moment(n) - 1) < mp.mpf("1e-10")
@@ -251,7 +253,7 @@ PUBLISHED = {
 
 
 @pytest.mark.parametrize("k", PUBLISHED)
-def test_finite_parts(k: int) -> None:
+def test_finite_parts_agree_with_published_values_and_quadrature(k: int) -> None:
     got = thin_plate.finite_part_ball(k, 30)
     assert got.rel_accuracy_bits() > 99
     with mp.workdps(30):

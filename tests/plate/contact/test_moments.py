@@ -47,7 +47,7 @@ def fraction(value: sp.Rational) -> arb:
 # --- values
 
 
-def test_lateral_moments() -> None:
+def test_lateral_moments_are_within_the_budget() -> None:
     start = tables.kappa_start()
     indices = [*range(7), 9, 12, 19, 33, 50, 76, start - 1, start, 150, LAST_N - 1, LAST_N]
     assert max(errors(kappa, reference.kappa, indices)) <= BUDGET
@@ -130,7 +130,7 @@ def test_quotient_follows_from_the_phase() -> None:
     assert tuple(actual) == theory.lateral_quotient(terms)
 
 
-def test_hankel_coefficients() -> None:
+def test_hankel_coefficients_agree_with_published_ones() -> None:
     """The coefficients are those of equation 10.17.1 of the NIST DLMF for nu = 0."""
     assert theory.hankel(4) == (1, sp.Rational(1, 8), sp.Rational(9, 128), sp.Rational(75, 1024))
     ratio = power(theory.hankel(4), sp.Integer(-1), 4)

@@ -1,4 +1,4 @@
-"""Curvature under the contact by a simply supported or clamped edge."""
+"""Test the plate curvature under the contact due to a simply supported or clamped edge."""
 
 import itertools
 import math
@@ -38,8 +38,8 @@ def test_simple_support_equals_both_references(h: float, nu: float) -> None:
 
 
 @pytest.mark.parametrize(("h", "nu"), list(itertools.product(SIZES, POISSON)))
-def test_clamp_is_the_curvature_of_the_slope(h: float, nu: float) -> None:
-    """In S/alpha of the second route, which integrates the pressure, alpha^2 has this factor."""
+def test_clamp_agrees_with_a_coefficient_of_the_slope(h: float, nu: float) -> None:
+    """The second reference integrates the pressure; this factor multiplies alpha^2 in S/alpha."""
     ball = clamp_balls.curvature(h, 1.0, lame(nu), 1.0, 20)
     widths = [0.25, 0.5]
     with mp.workdps(40):
@@ -54,7 +54,7 @@ def test_clamp_is_the_curvature_of_the_slope(h: float, nu: float) -> None:
 @pytest.mark.parametrize("h", [0.05, 0.2, 0.3, 0.5])
 @pytest.mark.parametrize("nu", [-0.4, 0.0, 0.3, 0.45])
 def test_finite_elements_have_the_same_curvature(support: str, h: float, nu: float) -> None:
-    """The edge's field in three-dimensional elasticity, with all its tractions."""
+    """A polynomial is fitted to the displacement that the edge adds in 3-D finite elements."""
     case, a = RemainderCase(support, h, nu), 0.01
     r, added = Field(case, MESHES[1]).face(a)
     near = r <= 0.4
@@ -70,31 +70,35 @@ def test_finite_elements_have_the_same_curvature(support: str, h: float, nu: flo
 @pytest.mark.parametrize("h", [0.01, 0.3])
 @pytest.mark.parametrize("edge", [0.1, -0.06])
 @pytest.mark.parametrize("part", [1.0, 0.4])
-def test_an_edge_acts_like_another_sphere(h: float, edge: float, part: float) -> None:
-    """A paraboloid meets the profile 1/R + kappa P, at the same contact radius.
+def test_edge_acts_like_a_change_of_sphere_curvature(h: float, edge: float, part: float) -> None:
+    """At one contact radius, the contact is that of a sphere of curvature 1/R + kappa P.
 
-    The curvature is that of a bending moment, which a load at the distance r from the axis
-    decreases by the factor 1 - r^2/b^2; the mean of r^2 is twice that of t^2, weighted with chi.
+    kappa is the curvature due to a bending moment at the edge. A load at the distance r from the
+    axis has the factor 1 - r^2/b^2; the mean of r^2 is twice that of t^2, weighted with chi.
     """
     R = 5.0
     a = np.linspace(0.2, 1.0, 801) * min(2.0 * h, 0.5)
-    plain, held = (solver.contact(solver.plate(h, 1.0, x), a, R, part, 1.0) for x in (0.0, edge))
+    plain, with_edge = (
+        solver.contact(solver.plate(h, 1.0, x), a, R, part, 1.0) for x in (0.0, edge)
+    )
     weights = np.polynomial.legendre.leggauss(48)[1][24:]
-    spread = (held.nodes**2 * held.chi) @ weights / (held.chi @ weights)
+    spread = (with_edge.nodes**2 * with_edge.chi) @ weights / (with_edge.chi @ weights)
     kappa = edge / (2.0 * h**3) * (1.0 - 2.0 * spread)
-    factor = held.force / plain.force
-    np.testing.assert_allclose(1.0 + R * kappa * held.force, factor, rtol=1e-12)
-    np.testing.assert_allclose(held.centre_pressure, factor * plain.centre_pressure, rtol=1e-11)
+    factor = with_edge.force / plain.force
+    np.testing.assert_allclose(1.0 + R * kappa * with_edge.force, factor, rtol=1e-12)
+    np.testing.assert_allclose(
+        with_edge.centre_pressure, factor * plain.centre_pressure, rtol=1e-11
+    )
     pressures = (
         solver.pressure(0.5 * a[400], solver.plate(h, 1.0, x), a[400], R, part, 1.0)
         for x in (0.0, edge)
     )
-    alone, with_edge = pressures
-    assert with_edge / alone == pytest.approx(factor[400], rel=1e-11)
+    before, after = pressures
+    assert after / before == pytest.approx(factor[400], rel=1e-11)
 
 
 def contacts(radius: float, edge: str, nu: float, spherical: bool) -> list[StaticContact]:
-    """Return contacts from a tenth to 3/2 of the thickness of 4 mm on a plate."""
+    """Return static contacts with radii up to 3/2 of the plate thickness, which is 4 mm."""
     effects = pc.Effects(non_hertzian_pressure=True, spherical_profile=spherical)
     scene = pc.Scene(
         sphere=pc.Sphere(radius=0.3, density=7800),
@@ -110,13 +114,13 @@ def contacts(radius: float, edge: str, nu: float, spherical: bool) -> list[Stati
 @pytest.mark.parametrize("spherical", [True, False])
 @pytest.mark.parametrize(("nu", "agreement"), [(0.0, 1e-6), (0.3, 5e-6)])
 @pytest.mark.parametrize("edge", ["clamped", "simply-supported"])
-def test_a_held_plate_is_a_plate_of_another_radius(
+def test_edge_acts_like_the_edge_of_the_paper_at_another_radius(
     edge: str, nu: float, agreement: float, spherical: bool
 ) -> None:
     """A thin plate under a point load deflects by P r^2 log(r/c)/(8 pi D) plus a constant.
 
-    With the paper's edge c = e b, clamped c = sqrt(e) b. The contact depends on c, not on the edge,
-    and the indentations differ by a constant compliance, except for terms of the order (a/b)^2.
+    The paper's edge has c = e b, a clamped edge c = sqrt(e) b. The contact depends on c, not on the
+    edge, and the indentations differ by a constant compliance, up to terms of the order (a/b)^2.
     """
     b = 2.0
     part = -1.0 if edge == "clamped" else (1.0 - nu) / (1.0 + nu)
@@ -140,10 +144,8 @@ def test_a_held_plate_is_a_plate_of_another_radius(
 
 @pytest.mark.parametrize("edge", ["clamped", "simply-supported"])
 @pytest.mark.parametrize("thickness", [0.02, 0.06])
-def test_the_error_of_the_curvature_is_a_part_of_the_model_error(
-    edge: str, thickness: float
-) -> None:
-    """It covers the curvature that finite elements give, at a given force, for a contact of b/4."""
+def test_model_error_includes_the_error_of_the_curvature(edge: str, thickness: float) -> None:
+    """The error covers the difference from finite elements, for a contact radius of b/4."""
     b, R, nu, modulus = 0.1, 1e3, 0.3, 7e10
     case = RemainderCase({"clamped": "clamped"}.get(edge, "supported"), 0.5 * thickness / b, nu)
     r, added = Field(case, MESHES[1]).face(0.01)
@@ -163,11 +165,11 @@ def test_the_error_of_the_curvature_is_a_part_of_the_model_error(
     )  # fmt: skip
     law = static_law(scene)
     a = np.array([0.25 * b])
-    held, true = (
+    stated, reference = (
         solver.contact(solver.plate(0.5 * thickness, b, x), a, R, law.modulus, law.model.modulus)
         for x in (law.edge_curvature, exact)
     )
-    change = abs(float(held.force[0] / true.force[0]) - 1.0) / 3.0
+    change = abs(float(stated.force[0] / reference.force[0]) - 1.0) / 3.0
     errors = edge_curvature_errors(law, float(a[0]))
     assert 0.0 < change <= errors.results <= errors.pressure
     result = pc.simulate(scene)

@@ -78,8 +78,8 @@ def test_edge_states_and_elements_add_up_to_the_total(support: str) -> None:
     for a, (other, stress), (remainder, error) in zip(WIDTHS, rest, relative, strict=True):
         more, indentation = edge_contribution(case, a)
         assert abs(other - more - remainder * indentation) < 1e-12 * indentation
-        paper, held = back_face_stresses(case, a)
-        assert abs(paper + stress - (1.0 + error) * held) < 1e-12 * held
+        paper, with_edge = back_face_stresses(case, a)
+        assert abs(paper + stress - (1.0 + error) * with_edge) < 1e-12 * with_edge
 
 
 def test_remainder_converges() -> None:
@@ -167,7 +167,7 @@ def model_of_case(case: RemainderCase) -> Model:
 def test_stated_error_covers_plates_between_those_measured(
     support: str, h: float, nu: float
 ) -> None:
-    """Beyond ratios of -0.5 and 0.45 the error was stated as there: a tenth, or half, of it."""
+    """For nu below -0.5 or above 0.45, an earlier version stated a tenth, or half, of the error."""
     case = RemainderCase(support, h, nu)
     for a, (remainder, stress) in zip(WIDTHS, remainders(case, COARSE), strict=True):
         plate = model_of_case(case)
@@ -178,7 +178,7 @@ def test_stated_error_covers_plates_between_those_measured(
 
 @pytest.mark.parametrize("support", SUPPORTS)
 def test_stress_of_thick_plates_has_a_large_or_unknown_error(support: str) -> None:
-    """The error was that of the indentation: 0.6 % instead of 15 or 102 %."""
+    """An earlier version stated the error of the indentation, 0.6 %, instead of 15 or 102 %."""
     plate = model_of_case(RemainderCase(support, 1.0, 0.3))
     assert edge_stress_error(plate, 0.3) > {"supported": 0.14, "clamped": 1.0}[support]
     thicker = model_of_case(RemainderCase(support, 1.1, 0.3))
@@ -209,7 +209,7 @@ def test_static_stress_states_the_error_of_the_edge(edge: str) -> None:
 
 @pytest.mark.parametrize("support", SUPPORTS)
 def test_edge_of_unknown_error_is_rejected(support: str) -> None:
-    """The error of a supported edge was stated as 0.07 %, and is 3 %, for a ratio of -0.95."""
+    """An earlier version stated 0.07 % instead of 3 % for a supported edge and nu = -0.95."""
     plate = model_of_case(RemainderCase(support, 0.02, -0.75))
     with pytest.raises(SceneError, match=r"plate\.poissons_ratio: expected at least -0\.7"):
         edge_remainder(plate, 0.01)
@@ -228,7 +228,7 @@ def test_edge_of_unknown_error_is_rejected(support: str) -> None:
 def test_static_contact_warns_of_a_large_error_of_the_edge(
     edge: str, thickness: float, nu: float, size: str
 ) -> None:
-    """The indentation was 15 % and 3 % wrong in the first two, without a warning."""
+    """In the first two cases the errors are 15 % and 3 %; an earlier version gave no warning."""
     plate = {"radius": 0.1, "thickness": 0.1 * thickness, "youngs_modulus": 1e9}
     tables = {
         "sphere": {"radius": 0.9, "mass": 1.0},
@@ -236,19 +236,19 @@ def test_static_contact_warns_of_a_large_error_of_the_edge(
         "impact": {"speed": 0.1},
     }
     about_edge = "the model error of the"
-    [held] = indent(read(tables), contact_radius=0.03)
-    [free] = indent(read(tables | {"effects": {"edge": False}}), contact_radius=0.03)
-    assert any(f"{about_edge} {edge} edge is {size}" in text for text in held.warnings) == bool(
-        size
-    )
-    assert not any(about_edge in text for text in free.warnings)
+    [with_edge] = indent(read(tables), contact_radius=0.03)
+    [without_edge] = indent(read(tables | {"effects": {"edge": False}}), contact_radius=0.03)
+    assert any(
+        f"{about_edge} {edge} edge is {size}" in text for text in with_edge.warnings
+    ) == bool(size)
+    assert not any(about_edge in text for text in without_edge.warnings)
 
 
 @pytest.mark.parametrize("support", SUPPORTS)
 @pytest.mark.parametrize("h", [0.3, 1.0, 1.5, 2.5])
 @pytest.mark.parametrize("nu", [-0.5, 0.0, 0.3, 0.45])
 def test_bound_of_an_omitted_edge_covers_its_change(support: str, h: float, nu: float) -> None:
-    """The bound was that of the law: for h/b = 2.5 and nu = 0, a sixth of the change.
+    """An earlier version stated a sixth of the change, the bound of the law, for h/b = 2.5, nu = 0.
 
     The change of the indentation is c a^3, that of its slope 3/2 as large.
     """

@@ -52,7 +52,7 @@ pytestmark = pytest.mark.usefixtures("silent")
 # --- theory
 
 
-def test_shear_coefficient() -> None:
+def test_shear_coefficient_agrees_with_the_known_one() -> None:
     assert sp.cancel(mindlin.shear_coefficient().expression - 5 / (6 - poisson)) == 0
 
 
@@ -128,7 +128,7 @@ def test_missing_roots_are_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize("nu", RATIOS)
-def test_cut_off_frequency(nu: float) -> None:
+def test_modes_end_at_the_cut_off_frequency(nu: float) -> None:
     low, high = wave_balls.cutoff(nu, 20)
     assert cutoff(nu) == pytest.approx(float((low + high) / 2), rel=1e-14)
     for edge, of in WAVES_OF.items():
@@ -286,7 +286,7 @@ def test_modes_of_thin_plates_agree_with_plate_theory(eta: float) -> None:
                 value = float(getattr(exact, name))
                 assert getattr(actual, name)[n - 1] == pytest.approx(
                     value,
-                    rel=1e-14 + 0.1 * eta,  # the compliance of the clamp
+                    rel=1e-14 + 0.1 * eta,  # second term: compliance of the clamp
                 )
         np.testing.assert_allclose(actual.k2, actual.k, rtol=1e-15)
         np.testing.assert_allclose(actual.residue, 0.5, rtol=1e-15)

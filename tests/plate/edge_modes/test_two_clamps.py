@@ -1,4 +1,4 @@
-"""The chi of a clamped edge in the static law, and that of its modes: where and why they differ."""
+"""Compare the parameter chi of a clamped edge in the static law with that of the plate modes."""
 
 import pytest
 import sympy as sp
@@ -19,12 +19,12 @@ def static_law(ratio: float, half: float) -> float:
 
 
 def static_modes(ratio: float, half: float) -> float:
-    """Return the same of all modes of the clamped plate."""
+    """Return the same reduction, as the sum over all modes of the clamped plate."""
     change = next(f for f in waves.static_changes() if f.name == "clamped_static_change")
     return float((-16 * sp.pi * change.expression).subs({nu: ratio, eta: half}))
 
 
-def own_chi(ratio: float) -> float:
+def chi_of_law(ratio: float) -> float:
     """Return chi/n^2 of the static law."""
     known = {lam: 2 * mu * ratio / (1 - 2 * ratio)}
     return float(sp.simplify((law.turn() / law.RATIO**2).subs(known)))
@@ -44,12 +44,12 @@ def test_modes_have_the_static_deflection_of_the_law(ratio: float) -> None:
 
 
 @pytest.mark.parametrize("ratio", POISSON)
-def test_the_effective_chi_is_that_of_finite_elements(ratio: float) -> None:
+def test_effective_chi_is_in_the_range_of_finite_elements(ratio: float) -> None:
     values = [effective_chi(ratio, half) for half in (0.03, 0.05, 0.1, 0.15, 0.25)]
     assert 0.074 < min(values) < 0.09 < max(values) < 0.113
 
 
 @pytest.mark.parametrize("ratio", POISSON)
-def test_in_the_thin_limit_it_is_that_of_the_law(ratio: float) -> None:
-    assert effective_chi(ratio, THIN) == pytest.approx(own_chi(ratio), rel=1e-3)
-    assert 0.105 < own_chi(ratio) < 0.123
+def test_effective_chi_of_thin_plates_is_that_of_the_law(ratio: float) -> None:
+    assert effective_chi(ratio, THIN) == pytest.approx(chi_of_law(ratio), rel=1e-3)
+    assert 0.105 < chi_of_law(ratio) < 0.123

@@ -81,7 +81,7 @@ def test_every_kind_of_defect_is_detected(suite: Suite, references: dict[str, Kn
         return row
 
     (case,) = (c for c in cases if c.form == "strided")
-    refused = max((c for c in cases if c.expect == "nan"), key=lambda c: len(c.points))
+    rejected = max((c for c in cases if c.expect == "nan"), key=lambda c: len(c.points))
     (short,) = (c for c in cases if c.form == "float32" and c.shape)
 
     def spoil(T: Any) -> Any:
@@ -94,7 +94,7 @@ def test_every_kind_of_defect_is_detected(suite: Suite, references: dict[str, Kn
     assert "written to" in one(spoil, case).problem
     assert "FloatingPointError" in one(lambda T: right(T) + np.log(T * 0), case).problem
     assert "float64" in one(lambda T: right(T).astype(np.float64), short).problem
-    assert not one(lambda T: right(np.abs(T) + 1.0), refused).passed
+    assert not one(lambda T: right(np.abs(T) + 1.0), rejected).passed
 
 
 def test_origin_includes_the_modules_of_the_reference(

@@ -20,25 +20,26 @@ from derivation.engine.measure.suite import Suite
 CLOSE = 1e-12
 """Largest relative difference of two compared numbers that counts as close to a switch."""
 
-GUARD = "a guard against what is outside the domain, or what no input reaches"
+GUARD = "a test for input outside the domain, or for a state that no input causes"
 LOOP = "keeps an iteration within its bracket"
-LAST = "ends an iteration, whose last step is far below the limit"
-ELSEWHERE = "its own tests have both sides, the hard cases do not"
-SIZES = "sizes of arrays, of which `test_prepared_plate` and `test_impact_batches` have both sides"
-ARRAY = "beyond it a plain number is computed as an array is"
-MAY_STAY: Mapping[str, tuple[int, str]] = {
+LAST = "ends an iteration, whose last step is always far below the limit"
+ELSEWHERE = "other tests have cases on both sides, the hard cases do not"
+SIZES = "sizes of arrays; `test_prepared_plate` and `test_impact_batches` have both sides"
+ARRAY = "beyond this limit, the code for arrays computes a single number"
+INTEGER = "tests whether an index is an integer"
+MAY_LACK_CASES: Mapping[str, tuple[int, str]] = {
     "back_face._evaluated": (1, GUARD),
     "contact_domain._repeats": (2, SIZES),
     "contact_domain.elastic": (1, GUARD),
     "contact_domain.plates_of_lengths": (2, GUARD),
     "contact_points.pieces": (3, SIZES),
     "contact_series._beyond": (1, GUARD),
-    "contact_series.correction": (1, "of one sphere only the hard cases have both sides"),
+    "contact_series.correction": (1, "only the code for a single sphere has cases on both sides"),
     "edge_modes._below_cutoff": (3, LOOP),
     "edge_modes._solved": (3, LOOP),
     "edge_modes._within": (2, GUARD),
-    "edge_modes.supported_waves": (1, "a count of no modes"),
-    "edge_sums.blocks_of_modes": (1, "whole numbers"),
+    "edge_modes.supported_waves": (1, "no modes are requested"),
+    "edge_sums.blocks_of_modes": (1, "compares integers"),
     **dict.fromkeys(("impact._deepest", "impact._far_deepest", "impact._state"), (1, LAST)),
     "impact._solve": (4, GUARD),
     "non_hertzian_pressure._contact": (1, ELSEWHERE),
@@ -58,10 +59,10 @@ MAY_STAY: Mapping[str, tuple[int, str]] = {
     "plate_points.indentation": (1, ARRAY),
     "plate_points.stiffness": (1, ARRAY),
     "plate_waves._between": (3, LOOP),
-    "reversed_series._reversed": (1, "ends a search, of which the best circle counts"),
-    "series_constants._representable": (1, "a constant grows faster from index to index"),
-    "series_constants.finite_part_ratio": (1, "whether an index is whole"),
-    "series_constants.kappa_ratio": (1, "whether an index is whole"),
+    "reversed_series._reversed": (1, "ends a search, whose result is the best circle before"),
+    "series_constants._representable": (1, "overflow: no constant is close to the largest number"),
+    "series_constants.finite_part_ratio": (1, INTEGER),
+    "series_constants.kappa_ratio": (1, INTEGER),
     "simple_impact._estimate": (2, GUARD),
     "simple_impact._relative": (1, GUARD),
     "simple_impact._scene": (4, GUARD),
@@ -69,7 +70,7 @@ MAY_STAY: Mapping[str, tuple[int, str]] = {
     "simple_impact.law_errors": (4, GUARD),
     "simple_impact.leading": (1, GUARD),
     "viscosity.viscous_logarithms": (4, ELSEWHERE),
-    "wave_stress.wave_stress": (1, "whether a name is known"),
+    "wave_stress.wave_stress": (1, "tests whether a name is known"),
 }
 """Largest number of comparisons by function without close cases on both sides, and why."""
 
@@ -91,12 +92,12 @@ def seen(suite: Suite) -> Watch:
                 if kernel.by_count:
                     kernel.call(int(case.numbers["count"][0]))
                 else:
-                    for arguments in ways(case, kernel):
+                    for arguments in layouts(case, kernel):
                         kernel.call(*arguments, **modes)
     return watch
 
 
-def ways(case: HardCase, kernel: Kernel) -> Iterator[list[Any]]:
+def layouts(case: HardCase, kernel: Kernel) -> Iterator[list[Any]]:
     """Yield the arguments of a case; for the contact law also as arrays and as numbers."""
     arguments = call_arguments(case, kernel.arguments)
     yield arguments
@@ -110,7 +111,7 @@ def test_every_comparison_has_cases_close_to_both_sides(seen: Watch) -> None:
     """A new switch point in the code needs hard cases; see docs/development."""
     far = seen.beyond(CLOSE)
     count = Counter(place.home for place in far)
-    most = {home: limit for home, (limit, _) in MAY_STAY.items()}
+    most = {home: limit for home, (limit, _) in MAY_LACK_CASES.items()}
     assert {p: x for p, x in far.items() if count[p.home] > most.get(p.home, 0)} == {}
 
 

@@ -229,7 +229,7 @@ def test_reference_shows_digits_radius_and_agreement(capsys: Captured) -> None:
     assert "about" in shown.err
 
 
-def test_reference_as_json(capsys: Captured) -> None:
+def test_reference_is_printed_as_json(capsys: Captured) -> None:
     assert main(["reference", str(PAPER), "--digits", "20", "--json", "-"]) == 0
     actual: dict[str, Any] = json.loads(capsys.readouterr().out)
     assert actual["inputs"]["R"] == 0.13

@@ -67,7 +67,7 @@ def test_contact_time_integral_agrees_with_the_motion(
         assert abs(contact_integral(formulas, law) / expected - 1) < mp.mpf("1e-12")
 
 
-def test_hertz_contact_time(formulas: Mapping[str, Formula]) -> None:
+def test_hertz_contact_time_agrees_with_the_known_constant(formulas: Mapping[str, Formula]) -> None:
     value = mp.mpf(str(formulas["hertz_time"].expression.evalf(25)))
     assert abs(value / 2 - mp.mpf(HERTZ)) < mp.mpf("2e-16") * 4
     assert abs(value - mp.mpf("2.94327518")) < 1e-8
@@ -155,7 +155,7 @@ EXPECTED = {
 }
 
 
-def test_misprints_of_the_motion(findings: dict[str, Finding]) -> None:
+def test_misprints_of_the_motion_are_found(findings: dict[str, Finding]) -> None:
     assert {name: finding.diagnosis.kind for name, finding in findings.items()} == EXPECTED
     for finding in findings.values():
         assert finding.is_misprint == (finding.diagnosis.kind != "equal")
@@ -163,7 +163,7 @@ def test_misprints_of_the_motion(findings: dict[str, Finding]) -> None:
         assert json.loads(json.dumps(report)) == report
 
 
-def test_statements_about_each_equation(findings: dict[str, Finding]) -> None:
+def test_findings_state_the_correction_of_each_equation(findings: dict[str, Finding]) -> None:
     assert "gamma_2**(-8/3) instead of gamma_2**(-3)" in findings["xi_3"].repair
     assert findings["xi_3"].diagnosis.ratio == gamma_k[2] ** sp.Rational(-1, 3)
     assert "m^1/3" in str(findings["xi_3"].diagnosis.dimension)

@@ -265,7 +265,7 @@ def test_values_accepted_by_the_key(wanted: object) -> None:
         read(compared(compare_paper_motion=wanted))
 
 
-def test_output_of_the_comparison(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_output_contains_the_comparison(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "scene.toml"
     text = (EXAMPLES / "paper.toml").read_text()
     assert text.count("[effects]") == 1

@@ -165,7 +165,7 @@ def test_sensitivities_of_peaks_agree_with_interval_arithmetic(v: float, A: floa
 # --- limits
 
 
-def test_hertz_limit() -> None:
+def test_sensitivities_of_small_contacts_agree_with_hertz() -> None:
     got = impact_sensitivities(0.01, 0.03, 1e-30, 5.0, 9.0, LAM, MU)
     expected = [
         [-0.2, 0.4, -0.2, 0.0, 0.0, -0.4],
@@ -177,7 +177,7 @@ def test_hertz_limit() -> None:
     assert np.abs(np.column_stack((got[:, :5], modulus)) - expected).max() < 1e-15
 
 
-def test_linear_spring_limit() -> None:
+def test_sensitivities_of_compliant_plates_agree_with_a_linear_spring() -> None:
     """In the limit of a linear spring the time is independent of sphere radius and speed.
 
     The deflection is P b^2/(8 pi D) with D = (2/3) E* h^3.
@@ -253,7 +253,7 @@ def test_peaks_depend_on_mass_and_speed_by_energy() -> None:
 # --- arrays
 
 
-def test_sensitivities_domain_and_types() -> None:
+def test_sensitivities_are_nan_outside_the_domain_and_keep_single_precision() -> None:
     for index in (0, 1, 2, 3, 4, 6):
         bad = [*SCENE]
         bad[index] = np.array([0.0, -1.0, np.nan])
@@ -262,7 +262,7 @@ def test_sensitivities_domain_and_types() -> None:
         assert np.isnan(got).all()
     assert np.isnan(impact_sensitivities(*SCENE[:2], 1e6, *SCENE[3:])).all()
     assert np.isnan(impact_sensitivities(*SCENE[:5], -0.7 * MU, MU)).all()
-    wide = (1e-4, 0.03, 50.0, *SCENE[3:])  # the contact would be wider than the sphere
+    wide = (1e-4, 0.03, 50.0, *SCENE[3:])  # the contact is wider than the sphere
     assert np.isnan(impact.impact(*wide).contact_time)
     assert np.isnan(impact_sensitivities(*wide)).all()
     single = impact_sensitivities(*(np.float32(x) for x in SCENE))

@@ -70,7 +70,7 @@ def by_motion(numbers: Point) -> ExpectedResult:
     whole = [float(motion_balls.corrected(t, *numbers, digits=16)) for t in times]
     outside = [-1e-3 * breaks, 1.001 * breaks]
 
-    def ask(module: ModuleType) -> list[float]:
+    def results(module: ModuleType) -> list[float]:
         motion = module.PrintedMotion(*numbers)
         names = "contact_time", "max_indentation", "excess", "last", "valid_until", "valid_fraction"
         return [
@@ -82,7 +82,7 @@ def by_motion(numbers: Point) -> ExpectedResult:
         ]
 
     exact = [*ends, *linear, linear[1], *whole, math.nan, math.nan, whole[1]]
-    return ExpectedResult(ask, [float(x) for x in exact])
+    return ExpectedResult(results, [float(x) for x in exact])
 
 
 def at_the_end(motion: Point) -> ExpectedResult:
@@ -90,11 +90,11 @@ def at_the_end(motion: Point) -> ExpectedResult:
     end = PrintedMotion(*motion).valid_until  # tested by `by_motion`
     exact = float(motion_balls.corrected(end * (1 - 1e-10), *motion, digits=12))
 
-    def ask(module: ModuleType) -> float:
+    def results(module: ModuleType) -> float:
         actual = module.PrintedMotion(*motion)
         return float(actual.corrected(actual.valid_until))
 
-    return ExpectedResult(ask, exact, 1e-4)
+    return ExpectedResult(results, exact, 1e-4)
 
 
 TESTS = {

@@ -21,19 +21,20 @@ from generated import simple_impact_numbers as numbers
 
 Point = tuple[float, ...]
 LAME = 0.36e9, 0.43e9
+ORDINARY = "limits of the numbers for which an error is estimated"
 
 # --- simple laws
 
 
 @dataclass(frozen=True)
 class Bounded:
-    """Bound stated by a module: at least the proved value `expected`, and hardly larger."""
+    """A bound of a module, which must be from `expected` (proved) to (1 + `above`) times that."""
 
     call: Callable[[ModuleType], Any]
     expected: Any
     above: float
 
-    def holds(self, module: ModuleType) -> bool:
+    def accepts(self, module: ModuleType) -> bool:
         actual, exact = (
             np.asarray(self.call(module), dtype=float),
             np.asarray(self.expected, dtype=float),
@@ -93,10 +94,10 @@ def simple_cases() -> list[Expected]:
                 ),
                 Bounded(lambda x, n=name, s=scene: getattr(x, n)(*s).law, law, 1e-6),
             ]
-    return [*actual, ExpectedResult(nowhere, [True] * 2 * len(NO_ESTIMATE))]
+    return [*actual, ExpectedResult(without_estimate, [True] * 2 * len(NO_ESTIMATE))]
 
 
-def nowhere(module: ModuleType) -> list[bool]:
+def without_estimate(module: ModuleType) -> list[bool]:
     return [run(*x) is None for x in NO_ESTIMATE for run in (module.hertz, module.leading)]
 
 
@@ -168,8 +169,8 @@ TESTS = {
     "simple_impact": ModuleTests(
         simple_cases,
         {
-            **dict.fromkeys(("ORDINARY", "PLATES"), (2, "which numbers are ordinary")),
-            "_scene": (1, "which numbers are ordinary"),
+            **dict.fromkeys(("ORDINARY", "PLATES"), (2, ORDINARY)),
+            "_scene": (1, ORDINARY),
             "DEEP": (1, GUARDS),
             "_radius_ratio": (4, GUARDS),
             "ROUNDING": (1, MARGIN),

@@ -124,19 +124,19 @@ def test_bending_plate_agrees_with_energy_and_quadrature(gravity: float) -> None
 
     def work(depth: object, top: float) -> float:
         # int P d delta = P delta - int delta dP, and dP = 3 P du/u.
-        def lost(u: float) -> float:
+        def integrand(u: float) -> float:
             return float(depth(u)) * 3.0 * elastic(u)[0] / u  # type: ignore[operator]
 
         parts = [0.0, min(onset, top), top]
-        taken = sum(quad(lost, *ends, epsabs=0, epsrel=1e-11)[0]
+        complement = sum(quad(integrand, *ends, epsabs=0, epsrel=1e-11)[0]
                     for ends in itertools.pairwise(parts))  # fmt: skip
-        return elastic(top)[0] * float(depth(top)) - taken  # type: ignore[operator]
+        return elastic(top)[0] * float(depth(top)) - complement  # type: ignore[operator]
 
-    def lacking(u: float) -> float:
+    def difference_at(u: float) -> float:
         weight = model.m * gravity * loaded(u)
         return work(loaded, u) - 0.5 * model.m * model.v0**2 - weight
 
-    top = float(brentq(lacking, onset, 0.02, xtol=1e-16, rtol=1e-14))
+    top = float(brentq(difference_at, onset, 0.02, xtol=1e-16, rtol=1e-14))
     wide = math.sqrt((2.0 * top**3 / onset + onset**2) / 3.0)
     flat = top / wide
     dent = wide**2 / model.R * (1.0 - flat**3)
@@ -153,7 +153,7 @@ def test_bending_plate_agrees_with_energy_and_quadrature(gravity: float) -> None
 
 
 class Marched:
-    """First contact on a plate with inertia by a Runge-Kutta method, with a dent kept per step."""
+    """First contact on a plate with inertia by a Runge-Kutta method, with a fixed dent per step."""
 
     def __init__(self, problem: DynamicProblem, onset: float) -> None:
         self.problem, self.onset, self.top = problem, onset, onset
@@ -172,24 +172,24 @@ class Marched:
         problem, shapes = self.problem, self.problem.contact.modes
         q = shapes.by_shape(np.split(y[2:], 2)[0])
 
-        def lacking(a: float) -> float:
+        def difference_at(a: float) -> float:
             at = problem.contact.at(np.array([a]))
             depth = (float(at.depth[0]) + self.added(a) / problem.contact.R) / problem.depth
             return depth + float((1.0 + at.less[0]) @ q) - float(y[0])
 
-        return float(brentq(lacking, 1e-9, 0.99 * problem.contact.top, xtol=1e-16))
+        return float(brentq(difference_at, 1e-9, 0.99 * problem.contact.top, xtol=1e-16))
 
     def rate(self, _: float, y: np.ndarray) -> np.ndarray:
         problem, (q, q_dot) = self.problem, np.split(y[2:], 2)
         at = problem.contact.at(np.array([self.radius(y) if y[0] > 0.0 else 1e-9]))
-        felt = at.felt[0][problem.contact.modes.shape] / problem.force
-        pull = problem.inverse_modal_mass * felt - problem.omega**2 * q
+        modal_force = at.felt[0][problem.contact.modes.shape] / problem.force
+        pull = problem.inverse_modal_mass * modal_force - problem.omega**2 * q
         return np.concatenate(([y[1], -float(at.force[0]) / problem.force], q_dot, pull))
 
     def step(self, t: float, dt: float) -> float:
         """Integrate one step and return the force after it [N]."""
-        made = solve_ivp(self.rate, (t, t + dt), self.y, rtol=1e-9, atol=1e-12)
-        self.y = made.y[:, -1]
+        solution = solve_ivp(self.rate, (t, t + dt), self.y, rtol=1e-9, atol=1e-12)
+        self.y = solution.y[:, -1]
         a = self.radius(self.y)
         self.top = max(self.top, a)
         return float(self.problem.contact.at(np.array([a])).force[0])
@@ -241,7 +241,7 @@ def test_plate_with_high_yield_stress_gives_the_elastic_results() -> None:
 
 
 def test_stated_error_covers_the_speed_of_a_contact_that_does_not_yield() -> None:
-    """The plate dominates; the runs with 14 and 16 nodes agree to 7e-11, but the error is 9e-11."""
+    """Runs with 14 and 16 nodes agree to 7e-11, but have errors of 9e-11 (large deflection)."""
     plate = {"radius": 0.0755, "half_thickness": 1.75e-4, "youngs_modulus": 1.3e11}
     result = simulate(
         read(
@@ -338,7 +338,7 @@ def test_bounds_hold_with_plate_inertia(ratio: float) -> None:
     assert tight.dent > 0.0
 
 
-def test_static_contact_on_loading() -> None:
+def test_static_plastic_contact_is_consistent_on_loading() -> None:
     scene = read(drop())
     [small] = indent(scene, force=1.0)
     [elastic] = indent(read(drop({"plasticity": False})), force=1.0)

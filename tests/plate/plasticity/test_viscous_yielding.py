@@ -67,11 +67,11 @@ def integrated(model: Model) -> list[float]:
         above = max(z - dent, 0.0)
         return unit * (above * R / flat) ** 1.5, 1.5 * unit * R / flat * math.sqrt(above * R / flat)
 
-    def pull(_: float, y: np.ndarray) -> float:
+    def contact_force(_: float, y: np.ndarray) -> float:
         force, slope = unloading(float(y[0]))
         return force + lag * slope * y[1]
 
-    up = run(unloading, [top, 0.0], pull)
+    up = run(unloading, [top, 0.0], contact_force)
     times = np.linspace(0.0, down.t[-1], 20001)
     forces = [f + lag * s * v for (f, s), v in
               ((loading(max(z, 0.0)), v) for z, v in down.sol(times).T)]  # fmt: skip

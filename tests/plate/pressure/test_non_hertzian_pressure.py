@@ -65,7 +65,7 @@ def test_bounds_hold_and_are_positive(eta: float) -> None:
         # The Hertz radius of the solution at contact radius a is slightly smaller than a.
         case = pressure_balls.case(a, 1, 1 / eta)
         state = pressure_balls.solve(case)
-        ratio = float(0.75 * state.force) ** (1 / 3)  # of Hertz's radius of the force to a
+        ratio = float(0.75 * state.force) ** (1 / 3)  # Hertz's radius of the force over a
         depth = float(state.depth) / ratio**2  # delta R/a_H^2
         hertz = a * ratio
         slope = 2 * ratio / float(state.stiffness)
@@ -170,7 +170,7 @@ def test_kernel_follows_from_the_slope_of_the_law() -> None:
 # --- limits
 
 
-def test_hertz_limit() -> None:
+def test_small_contacts_agree_with_hertz() -> None:
     for v in (1.0, 30.0):
         got = contact(plate(1.0, v), 1e-5, R, E)
         assert abs(got.centre_pressure / got.mean_pressure - 1.5) < 1e-14
@@ -256,17 +256,17 @@ def test_work_and_stiffness_are_consistent(a: float, v: float, edge: float) -> N
 
 @pytest.mark.parametrize("modulus_ratio", [1.0, 0.4])
 @pytest.mark.parametrize("v", [100.0, 5.0])
-def test_a_plate_without_stiffness_of_its_own_is_no_hard_case(
+def test_contact_is_accurate_where_the_punch_compliance_is_a_single_term(
     v: float, modulus_ratio: float
 ) -> None:
-    """Without N(0, 0) the flat punch has no stiffness at one radius, near a = h."""
+    """At one radius near a = h, the term N(0, 0) is the whole compliance of a flat punch."""
     of, own = plate(1.0, v), modulus_ratio * E
 
-    def rest(a: float) -> float:
-        whole = 2.0 * own * a / float(contact(of, a, R, own, E).stiffness)
-        return whole - of.first / of.unit * a * modulus_ratio
+    def other_terms(a: float) -> float:
+        compliance = 2.0 * own * a / float(contact(of, a, R, own, E).stiffness)
+        return compliance - of.first / of.unit * a * modulus_ratio
 
-    a = brentq(rest, 0.5, 3.0, xtol=1e-15)
+    a = brentq(other_terms, 0.5, 3.0, xtol=1e-15)
     state = pressure_balls.solve(pressure_balls.case(a, 1.0, v, 0, modulus_ratio), 18)
     got = contact(of, a, R, own, E)
     values = [
@@ -303,7 +303,7 @@ def test_contact_is_lost_at_the_centre_at_three_thicknesses() -> None:
             middle = (low + high) / 2
             opened = np.isnan(contact(of, middle, R, E).force)
             low, high = (low, middle) if opened else (middle, high)
-        print(f"b/h = {v:g}: the contact opens at a/H = {low / 2:.6f}")
+        print(f"b/h = {v:g}: contact is lost at the centre at a/H = {low / 2:.6f}")
         assert abs(low / 2 - OPEN) < 1e-6
 
 

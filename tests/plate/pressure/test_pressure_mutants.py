@@ -36,8 +36,8 @@ def pressure_cases() -> list[WithinUlp]:
             actual.append(solved(*numbers, compliance))
         actual.append(distribution(*numbers))
     actual += [work(*numbers) for numbers in SOLVED[:3]]
-    actual += [of_edge(*sizes) for sizes in ((200.0, 0.1), (3.0, -0.3))]
-    return [*actual, *refused(), in_other_units(0.5)]
+    actual += [edge_as_sphere(*sizes) for sizes in ((200.0, 0.1), (3.0, -0.3))]
+    return [*actual, *invalid_contacts(), in_other_units(0.5)]
 
 
 @cache
@@ -121,7 +121,7 @@ def work(a: float, v: float, R: float, modulus_ratio: float, sphere: bool) -> Wi
     return WithinUlp(call, np.asarray(1.0), 1e6)
 
 
-def of_edge(v: float, edge: float) -> WithinUlp:
+def edge_as_sphere(v: float, edge: float) -> WithinUlp:
     """Return the case that an edge acts like a sphere of the curvature 1/R + kappa P.
 
     kappa is that of a point load times the mean of 1 - 2 t^2/b^2.
@@ -129,10 +129,12 @@ def of_edge(v: float, edge: float) -> WithinUlp:
     weights = np.polynomial.legendre.leggauss(48)[1][24:]
 
     def call(m: ModuleType) -> float:
-        plain, held = (m.contact(m.plate(H, v * H, x), 0.8 * H, 1e3, E) for x in (0.0, edge))
-        spread = (held.nodes / (v * H)) ** 2 @ (weights * held.chi) / (weights @ held.chi)
+        plain, with_edge = (m.contact(m.plate(H, v * H, x), 0.8 * H, 1e3, E) for x in (0.0, edge))
+        spread = (
+            (with_edge.nodes / (v * H)) ** 2 @ (weights * with_edge.chi) / (weights @ with_edge.chi)
+        )
         kappa = edge / (2.0 * E * H**3) * (1.0 - 2.0 * spread)
-        return float(held.force / plain.force / (1.0 + kappa * 1e3 * held.force))
+        return float(with_edge.force / plain.force / (1.0 + kappa * 1e3 * with_edge.force))
 
     return WithinUlp(call, np.asarray(1.0), 1000.0)
 
@@ -151,7 +153,7 @@ def in_other_units(unit: float) -> WithinUlp:
     return WithinUlp(call, np.full(2, unit), 2.0)
 
 
-def refused() -> list[WithinUlp]:
+def invalid_contacts() -> list[WithinUlp]:
     """Return the case of NaN results for an invalid contact or plate."""
     within = 0.1, 1.0, 50.0, 1.0, 1.0
     outside = [
@@ -186,7 +188,7 @@ TESTS = {
         pressure_cases,
         {
             "plate": (2, BEYOND_ALL),
-            "contact": (1, "a contact opens before it is as wide"),
+            "contact": (1, "contact is lost at the centre before the limit"),
             "_unit_solutions": (1, GUARDS),
         },
     )

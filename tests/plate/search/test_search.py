@@ -64,19 +64,19 @@ def test_search_is_reproducible(fast: tuple[Target, ...]) -> None:
     one, two = (search(fast, seed=7, evaluations=800) for _ in range(2))
     assert one.evaluations == 800
     assert as_data(one) == as_data(two)
-    assert all(standing.worst is not None for standing in one.standings.values())
+    assert all(state.worst is not None for state in one.states.values())
     assert as_data(search(fast, seed=8, evaluations=800))["rows"] != as_data(one)["rows"]
 
 
 def test_search_of_a_single_function_takes_the_same_steps(fast: tuple[Target, ...]) -> None:
-    together = search(fast, seed=3, evaluations=500).standings["sonine"]
+    together = search(fast, seed=3, evaluations=500).states["sonine"]
     alone = search(targets(["sonine"]), seed=3, evaluations=together.evaluations)
-    assert alone.standings["sonine"] == together
+    assert alone.states["sonine"] == together
 
 
 def test_every_function_is_searched(fast: tuple[Target, ...]) -> None:
     search_result = search(fast, seed=1, evaluations=sum(t.turn_size for t in fast))
-    assert [s.evaluations for s in search_result.standings.values()] == [t.turn_size for t in fast]
+    assert [s.evaluations for s in search_result.states.values()] == [t.turn_size for t in fast]
 
 
 def test_search_ends_at_its_time_limit(fast: tuple[Target, ...]) -> None:
@@ -98,12 +98,12 @@ def test_random_points_are_inside_the_domain() -> None:
 
 
 def test_known_defect_is_found_and_refined(caught: Search) -> None:
-    standing = caught.standings["bessel_j0"]
-    assert standing.evaluations == 3000
-    assert standing.worst is not None
-    assert 1.0 < standing.worst.point.values["x"] < 1.001
+    state = caught.states["bessel_j0"]
+    assert state.evaluations == 3000
+    assert state.worst is not None
+    assert 1.0 < state.worst.point.values["x"] < 1.001
     # The local search also adds the error of the function to the planted 20 ULP.
-    assert standing.worst.error.ulp > 20.5
+    assert state.worst.error.ulp > 20.5
     assert not all_within_allowance(caught)
 
 
@@ -114,9 +114,9 @@ def test_written_case_reproduces_the_error(caught: Search, planted: Target, tmp_
     [case] = read(path)
     assert (case.kernel, case.group) == ("bessel_j0", "search")
     assert "seed 10" in case.cause
-    assert measured_case(case, {"bessel_j0": planted}) == caught.standings["bessel_j0"].worst
+    assert measured_case(case, {"bessel_j0": planted}) == caught.states["bessel_j0"].worst
     again = SearchRecord(path, [planted], {}, {})
-    assert not again.is_new("bessel_j0", caught.standings["bessel_j0"].worst)
+    assert not again.is_new("bessel_j0", caught.states["bessel_j0"].worst)
     before = path.read_text()
     again.keep(caught)
     assert path.read_text() == before
@@ -124,7 +124,7 @@ def test_written_case_reproduces_the_error(caught: Search, planted: Target, tmp_
 
 def test_only_larger_errors_are_new_cases(caught: Search, planted: Target) -> None:
     known = ROOT / "reports" / "data" / "check.json"
-    worst = caught.standings["bessel_j0"].worst
+    worst = caught.states["bessel_j0"].worst
     assert worst is not None
     book = SearchRecord(NOWHERE, [planted], *recorded(known, NOWHERE))
     assert book.is_new("bessel_j0", worst)
@@ -144,9 +144,9 @@ def test_case_with_an_array_of_two_points(fast: tuple[Target, ...], tmp_path: Pa
     domain = next(t.domain for t in fast if t.name == "bessel_j1")
     target = closed_target(domain, dataclasses.replace(kernel, call=wrong))
     target = dataclasses.replace(target, bound=None)
-    worst = search([target], 1, evaluations=20).standings["bessel_j1"].worst
+    worst = search([target], 1, evaluations=20).states["bessel_j1"].worst
     assert worst is not None
-    assert worst.company is not None
+    assert worst.second is not None
     case = case_of("bessel_j1", worst, 1)
     assert case.form == "array"
     path = tmp_path / "cases.toml"
@@ -159,7 +159,7 @@ def test_case_with_an_array_of_two_points(fast: tuple[Target, ...], tmp_path: Pa
 def test_result_that_is_not_finite_is_the_largest_error(planted: Target, tmp_path: Path) -> None:
     broken = dataclasses.replace(planted, call=lambda points: [(math.nan,)] * len(points))
     search_result = search([broken], 1, evaluations=10)
-    assert search_result.standings["bessel_j0"].ratio == math.inf
+    assert search_result.states["bessel_j0"].ratio == math.inf
     assert as_data(search_result)["rows"][0]["ratio"] == "inf"
     json.dumps(as_data(search_result), allow_nan=False)
     SearchRecord(tmp_path / "x.toml", [broken], {}, {}).keep(search_result)
@@ -174,7 +174,7 @@ def test_steps_are_floats_or_integers() -> None:
     assert whole.moved(point, "n", -3).values["n"] == 2.0
 
 
-def test_durations() -> None:
+def test_durations_are_read_in_seconds() -> None:
     assert [seconds_of(text) for text in ("30s", "5m", "1h")] == [30, 300, 3600]
     for text in ("", "5", "0s", "-5s", "1.5h", "5 m", "5d", "m", "1h30m", "99999999s", "\uff15s"):
         with pytest.raises(ValueError, match="30s, 5m or 1h"):
@@ -209,7 +209,9 @@ def test_case_with_other_arguments_is_rejected(fast: Sequence[Target], tmp_path:
         SearchRecord(path, fast, {}, {})
 
 
-def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_command_lists_the_chosen_functions(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     path, data = tmp_path / "cases.toml", tmp_path / "found.json"
     chosen = [
         "--function",
@@ -239,16 +241,16 @@ from derivation.engine import console as screen
 from derivation.engine.measure import search
 nothing = pathlib.Path(sys.argv[1] + ".none")  # nothing on record: any case is new
 pipeline.PAPER = dataclasses.replace(pipeline.PAPER, records=nothing)
-look = search._evaluate_points
-def loudly(*arguments):
-    yield from look(*arguments)
-    print("looked", flush=True)
-search._evaluate_points = loudly
+evaluate = search._evaluate_points
+def with_output(*arguments):
+    yield from evaluate(*arguments)
+    print("evaluated", flush=True)
+search._evaluate_points = with_output
 command = "check search --time 1h --function bessel_j0 --out"
 sys.exit(cli.main([*command.split(), sys.argv[1]]))
 """
     path = tmp_path / "cases.toml"
-    shown, _ = interrupted(program, path, "looked")
+    shown, _ = interrupted(program, path, "evaluated")
     assert "bessel_j0: x=" in shown
     (case,) = read(path)
     assert case.kernel == "bessel_j0"

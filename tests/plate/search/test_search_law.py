@@ -127,10 +127,10 @@ def plain(name: str, arguments: tuple[str, ...], conditions: tuple[str, ...]) ->
 
 def test_points_without_reference_are_counted() -> None:
     target = dataclasses.replace(plain("blind", ("x",), ()), measure=lambda *_: None)
-    standing = search.search([target], 1, evaluations=600).standings["blind"]
-    assert (standing.evaluations, standing.unjudged) == (600, 600)
-    assert standing.worst is None
-    assert standing.ratio == -1.0
+    state = search.search([target], 1, evaluations=600).states["blind"]
+    assert (state.evaluations, state.unjudged) == (600, 600)
+    assert state.worst is None
+    assert state.ratio == -1.0
 
 
 def test_local_search_keeps_zeros_and_stays_in_the_domain() -> None:
@@ -167,7 +167,7 @@ def test_cases_of_other_functions_stay_in_the_file(tmp_path: Path) -> None:
     book.keep(search_result)
     first, second = read_cases(path)
     assert first == other
-    worst = search_result.standings["size"].worst
+    worst = search_result.states["size"].worst
     assert worst is not None
     assert second == case_of("size", worst, 1)
 

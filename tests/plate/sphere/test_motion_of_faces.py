@@ -1,7 +1,7 @@
-"""Finite sphere and motion of faces, against a sphere that is pressed on a rigid plane.
+"""Test the errors by the finite sphere and the motion of its face: a sphere on a rigid plane.
 
-The sphere is solved with forces and displacements along its axis, in vector spherical harmonics:
-pressure on the deformed face, and points that move along it. R and shear modulus are 1.
+A series of vector spherical harmonics includes what Hertz's theory neglects: the pressure acts on
+the deformed face, and the points of the face move along it. R and shear modulus are 1.
 """
 
 import math
@@ -19,10 +19,10 @@ NU = (-0.5, 0.0, 0.3, 0.45)
 
 
 def compliances(count: int, nu: float) -> Double:
-    """Return the matrices from stresses rr, rt to displacements r, t of each degree, with E P_n.
+    """Return for each degree n the matrix from stresses rr, rt to displacements r, t.
 
-    Tangential parts are multiples of dP_n/dtheta. Degree 1 is relative to the centre of mass, and a
-    uniform force on the mass balances it.
+    Radial parts are multiples of P_n, tangential parts of dP_n/dtheta. Degree 1 is
+    relative to the centre of mass, and a uniform force on the mass balances it.
     """
     n = np.arange(count, dtype=np.float64)
     one = np.ones(count)
@@ -51,9 +51,10 @@ def harmonics(count: int, cosine: Double) -> tuple[Double, Double]:
 
 
 def change(nu: float, angle: float, axial: bool) -> tuple[float, float]:
-    """Return a/R, and the change of the indentation at equal force over a/R.
+    """Return a/R, and the relative change of the indentation at equal force, divided by a/R.
 
-    Forces and displacements are along the axis, or along the radius and the axis.
+    With `axial`, the pressure acts along the axis, and tangential displacements count. Without it,
+    the pressure acts along the radius, and they do not.
     """
     count, half = int(100 / angle), math.sin(angle / 2)
     x, weights = leggauss(160)
@@ -97,7 +98,7 @@ def test_motion_of_faces_is_the_limit_of_forces_along_the_axis(nu: float) -> Non
 
 
 @pytest.mark.parametrize("nu", NU)
-def test_both_parts_add_up(nu: float) -> None:
+def test_change_is_the_sum_of_finite_size_and_motion_of_faces(nu: float) -> None:
     values = [change(nu, angle, axial=True) for angle in (0.05, 0.1)]
     rest = [d - float(finite_size(nu, a)) / a + float(face_motion(np.array(nu))) for a, d in values]
     assert max(map(abs, rest)) < 0.1

@@ -15,7 +15,6 @@ from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.effects import BY_NAME, WHOLE_PLATE
 from derivation.scene.model import Model
 from derivation.scene.quasi_static import motion, viscous
-from derivation.scene.quasi_static.motion import Motion
 from derivation.scene.scene import OUTPUTS, SceneError
 from derivation.scene.selection.effect_selection import decide
 from derivation.scene.selection.method_selection import moved
@@ -24,10 +23,6 @@ from generated.viscosity import ImpactExtremes, restitution_weak, viscous_logari
 HERTZ = frozenset({"hertz", "viscosity"})
 PLATE = WHOLE_PLATE | HERTZ
 BALL = Model(R=0.01, m=0.03, v0=0.5, h=0.01, b=0.1, lam=2e9, mu=1e9, retardation_time=2e-6)
-
-
-def moves(law: ContactLaw) -> Motion:
-    return moved(law)
 
 
 def with_number(x: float, model: Model = BALL) -> Model:
@@ -54,26 +49,35 @@ def spiral(x: float) -> tuple[float, float]:
             5 * u**3 / (omega * turning),
         ]
 
-    def pull(u: float, state: np.ndarray) -> float:
+    def scaled_force(u: float, state: np.ndarray) -> float:
         phi = u**5
         return math.sin(phi) + top * max(state[0] * math.sin(phi), 0.0) ** 0.2 * math.cos(phi)
 
-    pull.terminal, pull.direction = True, -1.0  # type: ignore[attr-defined]
+    scaled_force.terminal, scaled_force.direction = True, -1.0  # type: ignore[attr-defined]
     solution = solve_ivp(
-        rates, (0.1**6, math.pi**0.2), [1.0, 0.0], "DOP853", events=pull, rtol=1e-13, atol=1e-15
+        rates,
+        (0.1**6, math.pi**0.2),
+        [1.0, 0.0],
+        "DOP853",
+        events=scaled_force,
+        rtol=1e-13,
+        atol=1e-15,
     )
     [end], [state] = solution.t_events[0], solution.y_events[0]
-    calm = float(beta(mpf("0.4"), mpf("0.5")))  # int_0^pi sin^(-1/5)
-    return -state[0] * math.cos(end**5), state[1] / calm
+    elastic = float(beta(mpf("0.4"), mpf("0.5")))  # int_0^pi sin^(-1/5)
+    return -state[0] * math.cos(end**5), state[1] / elastic
 
 
 @pytest.mark.parametrize("x", [1e-3, 0.03, 0.3, 1.0, 3.0])
 def test_hertz_contact_follows_the_spiral(x: float) -> None:
     model = with_number(x)
-    result, calm = moves(ContactLaw(model, HERTZ)), moves(ContactLaw(model, frozenset({"hertz"})))
+    result, elastic = (
+        moved(ContactLaw(model, HERTZ)),
+        moved(ContactLaw(model, frozenset({"hertz"}))),
+    )
     restitution, time = spiral(x)
     assert result.restitution == pytest.approx(restitution, rel=1e-10)
-    assert result.contact_time / calm.contact_time == pytest.approx(time, rel=1e-9)
+    assert result.contact_time / elastic.contact_time == pytest.approx(time, rel=1e-9)
 
 
 def test_restitution_of_weak_viscosity_agrees_with_the_published_series() -> None:
@@ -90,7 +94,7 @@ def test_restitution_of_weak_viscosity_agrees_with_the_published_series() -> Non
     rest = []
     for x in (1e-3, 4e-3):
         weak = float(restitution_weak(x))
-        rest.append((moves(ContactLaw(with_number(x), HERTZ)).restitution - weak) / x**2.5)
+        rest.append((moved(ContactLaw(with_number(x), HERTZ)).restitution - weak) / x**2.5)
     # The next term is smaller by a factor of order sqrt(x).
     assert 2 * rest[0] - rest[1] == pytest.approx(4 / 15, rel=0.01)
 
@@ -130,17 +134,18 @@ def by_scipy(law: ContactLaw) -> tuple[float, float, float, float]:
         force, elastic, slope = state(y)
         return [y[1], -force / model.m, (force - elastic) / (A * slope)]
 
-    def gone(_: float, y: np.ndarray) -> float:
+    def contact_force(_: float, y: np.ndarray) -> float:
         return state(y)[0]
 
-    gone.terminal, gone.direction = True, -1.0  # type: ignore[attr-defined]
-    calm = moves(replace(law, effects=law.effects - {"viscosity"}))
-    first = 1e-7 * calm.contact_time
+    contact_force.terminal, contact_force.direction = True, -1.0  # type: ignore[attr-defined]
+    elastic = moved(replace(law, effects=law.effects - {"viscosity"}))
+    first = 1e-7 * elastic.contact_time
     start = viscous.impact(law)
     depth, speed, radius, _ = (x[0] for x in start.history(law, np.array([first])))
     solution = solve_ivp(
-        rates, (first, 3 * calm.contact_time), [depth, speed, radius], "Radau", events=gone,
-        rtol=1e-10, atol=[1e-14 * calm.max_indentation, 1e-12 * model.v0, 1e-9 * radius],
+        rates, (first, 3 * elastic.contact_time), [depth, speed, radius], "Radau", rtol=1e-10,
+        atol=[1e-14 * elastic.max_indentation, 1e-12 * model.v0, 1e-9 * radius],
+        events=contact_force,
     )  # fmt: skip
     forces = [state(y)[0] for y in solution.y.T]
     return (
@@ -154,7 +159,7 @@ def by_scipy(law: ContactLaw) -> tuple[float, float, float, float]:
 def test_bending_plate_agrees_with_another_integrator() -> None:
     model = replace(BALL, h=0.002, b=0.06, retardation_time=4e-5)
     law = ContactLaw(model, PLATE)
-    result = moves(law)
+    result = moved(law)
     time, depth, force, restitution = by_scipy(law)
     assert result.contact_time == pytest.approx(time, rel=1e-7)
     assert result.restitution == pytest.approx(restitution, rel=1e-8)
@@ -200,11 +205,11 @@ def test_energy_balance_closes_with_weight_and_non_hertzian_pressure() -> None:
         model,
         PLATE | {"gravity", "non_hertzian_pressure", "spherical_profile", "sphere_elasticity"},
     )
-    result = moves(law)
+    result = moved(law)
     assert result.energy_balance is not None
     assert result.energy_balance.gravity_work > 0.0
     assert abs(result.energy_balance.residual) < 1e-12
-    hertz = moves(replace(law, effects=law.effects - {"non_hertzian_pressure"}))
+    hertz = moved(replace(law, effects=law.effects - {"non_hertzian_pressure"}))
     assert result.numbers == pytest.approx(hertz.numbers, rel=0.02)
     assert result.numbers != pytest.approx(hertz.numbers, rel=1e-5)
 
@@ -213,19 +218,19 @@ def test_small_viscosity_tends_to_the_elastic_limit() -> None:
     model = with_number(1e-9)
     for effects in (HERTZ, PLATE, PLATE | {"non_hertzian_pressure", "spherical_profile"}):
         law = ContactLaw(model, effects)
-        calm = moves(replace(law, effects=effects - {"viscosity"}))
-        assert moves(law).numbers == pytest.approx(calm.numbers, rel=3e-9)
+        elastic = moved(replace(law, effects=effects - {"viscosity"}))
+        assert moved(law).numbers == pytest.approx(elastic.numbers, rel=3e-9)
 
 
 def test_bending_dissipates_no_energy() -> None:
     """Only the local contact dissipates, so a more compliant plate loses less energy."""
     thin = [replace(BALL, h=h, retardation_time=1e-5) for h in (0.01, 0.004, 0.002, 0.001)]
-    lost = [1.0 - moves(ContactLaw(model, PLATE)).restitution for model in thin]
+    lost = [1.0 - moved(ContactLaw(model, PLATE)).restitution for model in thin]
     assert lost == sorted(lost, reverse=True)
     assert lost[-1] < 0.02 * lost[0]
     # If bending is omitted, its deflection is part of the viscoelastic contact law.
     thick = replace(BALL, h=1.0, retardation_time=1e-5)
-    whole, local = moves(ContactLaw(thick, PLATE)), moves(ContactLaw(thick, PLATE - {"bending"}))
+    whole, local = moved(ContactLaw(thick, PLATE)), moved(ContactLaw(thick, PLATE - {"bending"}))
     assert whole.numbers == pytest.approx(local.numbers, rel=1e-2)
 
 
@@ -233,12 +238,12 @@ def test_sphere_that_stays_is_rejected() -> None:
     slow = replace(with_number(1.0), v0=1e-4, gravity=9.81)
     with pytest.raises(SceneError, match=r"^plate\.retardation_time: "):
         moved(ContactLaw(slow, HERTZ | {"gravity"}))
-    assert moves(ContactLaw(slow, HERTZ)).restitution > 0.0
+    assert moved(ContactLaw(slow, HERTZ)).restitution > 0.0
 
 
 def test_history_agrees_with_the_results() -> None:
     law = ContactLaw(replace(BALL, retardation_time=1e-5), PLATE)
-    result = moves(law)
+    result = moved(law)
     times = np.linspace(0.0, result.contact_time, 4001)
     depth, speed, radius, force = result.history(law, times)
     assert (depth[0], speed[0], radius[0], force[0]) == pytest.approx((0, BALL.v0, 0, 0), abs=1e-12)
@@ -262,11 +267,11 @@ def test_bounds_of_viscosity_hold_for_hertz() -> None:
     There epsilon = (4/5)^(2/5) x, log Omega/log s = 1/5, delta ~ s^(4/5) and a ~ s^(2/5).
     """
     assert viscous_logarithms(EXTREMES._replace(epsilon=1.0)) == (math.inf,) * 5
-    calm = moves(ContactLaw(BALL, frozenset({"hertz"}))).numbers
+    elastic = moved(ContactLaw(BALL, frozenset({"hertz"}))).numbers
     for x in (1e-4, 0.01, 0.3, 0.9):
-        actual = moves(ContactLaw(with_number(x), HERTZ)).numbers
+        actual = moved(ContactLaw(with_number(x), HERTZ)).numbers
         most = viscous_logarithms(EXTREMES._replace(epsilon=0.8**0.4 * x, rise=0.2))
-        changes = [abs(math.log(new / old)) for new, old in zip(actual, calm, strict=True)]
+        changes = [abs(math.log(new / old)) for new, old in zip(actual, elastic, strict=True)]
         assert all(change <= bound for change, bound in zip(changes, most, strict=True))
         # Each bound is below 10 times the change, except for the force (change of order epsilon^2).
         wide = [bound / change for change, bound in zip(changes, most, strict=True)]
@@ -290,13 +295,13 @@ def test_outputs_of_a_heavy_sphere_are_within_their_bounds(
     bound = {row.name: row.bound for row in selected.rows}["viscosity"]
     index = OUTPUTS.index(output)
     try:
-        exact = moves(replace(selected.law, effects=selected.law.effects | {"viscosity"})).numbers[
+        exact = moved(replace(selected.law, effects=selected.law.effects | {"viscosity"})).numbers[
             index
         ]
     except SceneError:  # the sphere does not rebound
         assert bound == math.inf
     else:
-        assert abs(moves(selected.law).numbers[index] / exact - 1.0) <= bound
+        assert abs(moved(selected.law).numbers[index] / exact - 1.0) <= bound
 
 
 def test_bending_is_included_with_the_edge() -> None:
@@ -324,12 +329,12 @@ def test_error_is_within_the_bound_on_both_sides_of_the_threshold(
     for rtol, included in ((error_bound / 2, True), (error_bound * 1.05, False)):
         selected = decide(model, AT_REST | others, rtol)
         assert ("viscosity" in selected.law.effects) is included
-        whole = moves(
+        whole = moved(
             ContactLaw(
                 model, frozenset(n for n in ALL if not BY_NAME[n].not_applicable_reason(model))
             )
         )
-        result = moves(selected.law)
+        result = moved(selected.law)
         errors = [abs(x / y - 1) for x, y in zip(result.numbers, whole.numbers, strict=True)]
         assert max(errors) <= selected.error + 1e-11 <= rtol + 1e-11
     assert OUTPUTS[-1] == "restitution"

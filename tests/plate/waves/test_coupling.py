@@ -193,6 +193,6 @@ def derived_third(h: float, b: float) -> float:
     return float(plate_coefficients(h / b)[1]) / reach**2
 
 
-def test_coefficients_by_index() -> None:
+def test_variational_coefficients_have_the_known_ratios() -> None:
     ratio = derived.formulas()["variational_ratio"].expression
     assert [ratio.subs(k, index) for index in (2, 3, 4)] == [1, sp.Rational(8, 3), 8]

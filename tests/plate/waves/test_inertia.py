@@ -69,7 +69,7 @@ def test_thin_plate_series_of_any_order() -> None:
             assert all(after < 0.1 * before for before, after in itertools.pairwise(errors))
 
 
-def test_rayleigh_cubic() -> None:
+def test_rayleigh_speed_agrees_with_the_known_one() -> None:
     cubic = bending_branch.rayleigh()[0].expression
     (speed,) = (
         root for root in sp.Poly(cubic.subs(gam, sp.Rational(1, 3)), xi_R).nroots(20)

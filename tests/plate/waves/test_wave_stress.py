@@ -1,4 +1,4 @@
-"""Stress of waves and modes on the back face, against other routes and limits."""
+"""Test the stress of waves and modes on the back face against other methods and limits."""
 
 import numpy as np
 import pytest
@@ -31,7 +31,7 @@ def test_stress_of_a_wave_is_that_of_the_first_order_equations(
 
 @pytest.mark.parametrize("nu", [0.0, 0.3, 0.45])
 def test_waves_of_all_branches_add_up_to_the_static_stress(nu: float) -> None:
-    """The residues of the stress at the branches, over kap, sum to that of a slow load."""
+    """The residues of the stress at all branches, divided by kap, add up to that of a slow load."""
     x = 0.9
     total, partial = 0.0, []
     for kind in oracle.KINDS:
@@ -46,12 +46,12 @@ def test_waves_of_all_branches_add_up_to_the_static_stress(nu: float) -> None:
         (_, bent), (_, stretched) = route._moved(mpf(x), slow, mpf(nu))
         expected = float(-(1 + mpf(nu)) / (1 - mpf(nu)) * x * (bent + stretched))
     assert total == pytest.approx(expected, rel=1e-5)
-    assert partial[0][0] != pytest.approx(expected, rel=1e-2)  # A0 alone is not enough
+    assert partial[0][0] != pytest.approx(expected, rel=1e-2)  # A0 alone is not sufficient
 
 
 @pytest.mark.parametrize("run", [clamped_waves, supported_waves])
-def test_modes_of_thin_plates_are_bent_as_by_kirchhoff(run: object) -> None:
-    """The curvature of J0(k r) - c I0(k r) on the axis."""
+def test_modes_of_thin_plates_have_the_bending_stress_of_kirchhoff(run: object) -> None:
+    """The stress follows from the curvature of J0(k r) - c I0(k r) on the axis."""
     eta, nu = 1e-4, 0.3
     waves = run(4, eta, nu)  # type: ignore[operator]
     curved = waves.k**2 * (1.0 + waves.c) / (1.0 - waves.c)
@@ -68,7 +68,7 @@ def test_modes_without_evanescent_part_have_the_stress_of_a_wave() -> None:
     assert mode_stress(waves, eta, nu)[late] == pytest.approx(own[late], rel=1e-11)
 
 
-def test_outside_the_domain_there_is_no_number() -> None:
+def test_stress_is_nan_outside_the_domain_and_other_parities_are_rejected() -> None:
     assert np.isnan(wave_stress(0.1, 0.01, 0.5))
     assert np.isnan(wave_stress(0.0, 0.01, 0.3))
     with pytest.raises(ValueError, match="parity"):

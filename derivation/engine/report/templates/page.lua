@@ -1,4 +1,5 @@
--- What pandoc leaves open in the report's LaTeX: numbers, references to them, and what is not known.
+-- Pandoc filter: add numbers of sections, equations, tables and figures; resolve references; reject
+-- unknown commands.
 
 local letters, chapter, part = false, 0, 0
 local headings, equations, tables, figures = 0, 0, 0, 0
@@ -12,7 +13,7 @@ local function span(class, content)
   return pandoc.Span(content, { class = class })
 end
 
--- First pass, in the order of the text: what counts.
+-- First pass, in the order of the text: numbers.
 
 local function number(heading)
   if heading.level == 1 then
@@ -69,7 +70,7 @@ local function Figure(figure)
   })
 end
 
--- Columns of text keep their place in `colspecs`; how wide they are is left to the browser.
+-- Mark columns of text, and remove column widths, which the browser computes.
 local function Table(found)
   if #found.caption.long > 0 then
     tables = tables + 1
@@ -109,7 +110,7 @@ local function bare(cite)
   return cite
 end
 
--- Second pass: references, commands, points that stay on the line of their formula.
+-- Second pass: references, commands, and punctuation, which must not be separated from a formula.
 
 local function link(text, target)
   return pandoc.Link(text, "#" .. target)

@@ -1,4 +1,4 @@
-"""Scenes outside the range of the models are refused before the expensive part of a simulation."""
+"""Scenes outside the range of the models are rejected before the slow part of a simulation."""
 
 import re
 from typing import Any
@@ -29,7 +29,7 @@ CURVED: dict[str, Any] = {
 """A ball that bends phone glass more than the ball is curved."""
 
 
-def refusal(scene: dict[str, Any]) -> str:
+def rejection(scene: dict[str, Any]) -> str:
     with pytest.raises(SceneError) as caught:
         simulate(read(scene))
     return str(caught.value)
@@ -39,9 +39,9 @@ def law_of(scene: dict[str, Any]) -> ContactLaw:
     return selected_effects(read(scene))[1].law
 
 
-def test_wide_plastic_contact_is_refused_before_it_ends(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The whole contact, without the check, is at least as wide as the refusal states."""
-    text = refusal(HAIL)
+def test_wide_plastic_contact_is_rejected_before_it_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The whole contact, without the check, is at least as wide as the rejection states."""
+    text = rejection(HAIL)
     assert re.match(r"impact\.speed: expected a contact radius below .* = 0\.0024 m", text)
     assert "or use a lighter sphere" in text
     stated = re.search(r"got at least (\S+) m", text)
@@ -59,10 +59,10 @@ def test_wide_plastic_contact_is_refused_before_it_ends(monkeypatch: pytest.Monk
 
 
 @pytest.mark.parametrize("yield_stress", [10e6, 40e6])
-def test_speed_that_a_refusal_states_is_low_enough(yield_stress: float) -> None:
+def test_speed_in_the_message_is_low_enough(yield_stress: float) -> None:
     """The contact at this speed is within the limit, and not far below it."""
     scene = HAIL | {"sphere": HAIL["sphere"] | {"yield_stress": yield_stress}}
-    stated = re.search(r"reduce impact\.speed \((\S+) m/s is low enough\)", refusal(scene))
+    stated = re.search(r"reduce impact\.speed \((\S+) m/s is low enough\)", rejection(scene))
     assert stated
     slower = scene | {"impact": {"speed": float(stated[1])}}
     assert 0.4 < simulate(read(slower)).max_contact_radius / law_of(scene).limit < 1.0
@@ -92,16 +92,16 @@ def test_check_of_the_width_stops_no_contact_within_the_limit(
             widest()
 
 
-def test_contact_without_solution_is_refused_for_the_same_reason_at_any_length(
+def test_contact_without_solution_is_rejected_for_the_same_reason_at_any_length(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Ever shorter elements find no solution either, and the reason is the same."""
-    early = refusal(CURVED)
+    """Shorter time elements have no solution either, and the stated reason is the same."""
+    early = rejection(CURVED)
     assert "the plate is more curved than the sphere" in early
     monkeypatch.setattr(contact_errors, "STUCK", 0.0)
     monkeypatch.setattr(contact_sequence, "STUCK", 0.0)
     waves.impact.cache_clear()
-    late = refusal(CURVED)
+    late = rejection(CURVED)
     times = [float(re.search(r"contact at (\S+) s", text)[1]) for text in (early, late)]  # type: ignore[index]
     assert early.partition(" s ")[2] == late.partition(" s ")[2]
     assert times[0] == pytest.approx(times[1], rel=1e-4)
@@ -125,15 +125,15 @@ def test_contact_without_solution_is_refused_for_the_same_reason_at_any_length(
     ],
     ids=["yielding", "elastic"],
 )
-def test_tolerance_that_omitted_branches_exceed_is_refused_at_the_first_contact(
+def test_tolerance_that_omitted_branches_exceed_is_rejected_at_the_first_contact(
     sphere: dict[str, Any], plate: dict[str, Any], speed: float
 ) -> None:
-    """The whole simulation has a larger error; the tolerance that the refusal states is met."""
+    """The whole simulation has a larger error; the tolerance that the rejection states is met."""
     scene = {"sphere": sphere, "plate": plate, "impact": {"speed": speed}}
     whole = simulate(read(scene)).accuracy.bound
     stated = re.match(
         r"rtol: expected at least about (\S+), because",
-        refusal(scene | {"accuracy": {"rtol": 0.3 * whole}}),
+        rejection(scene | {"accuracy": {"rtol": 0.3 * whole}}),
     )
     assert stated
     assert 0.3 * whole < float(stated[1])
@@ -141,8 +141,8 @@ def test_tolerance_that_omitted_branches_exceed_is_refused_at_the_first_contact(
     assert met.accuracy.bound <= float(stated[1])
 
 
-def test_stated_tolerance_allows_for_what_follows_the_early_refusal() -> None:
-    """The contact widens after it is refused, and the omitted branches then matter more."""
+def test_tolerance_in_an_early_message_can_be_met() -> None:
+    """The contact widens after it is rejected, and the omitted branches then matter more."""
     scene: dict[str, Any] = {
         "sphere": {"radius": 0.0182607, "density": 3537.7},
         "plate": {
@@ -154,7 +154,7 @@ def test_stated_tolerance_allows_for_what_follows_the_early_refusal() -> None:
         "effects": {"non_hertzian_pressure": False, "spherical_profile": False},
         "inertia": {"branches": "A0"},
     }  # fmt: skip
-    text = refusal(scene | {"accuracy": {"rtol": 6.5628e-3}})
+    text = rejection(scene | {"accuracy": {"rtol": 6.5628e-3}})
     stated = re.match(r"rtol: expected at least about (\S+), because", text)
     assert stated
     tolerance = float(stated[1])
@@ -162,7 +162,7 @@ def test_stated_tolerance_allows_for_what_follows_the_early_refusal() -> None:
     assert met.accuracy.bound <= tolerance
 
 
-def test_a_sphere_far_too_heavy_is_refused_before_its_contact_is_tabulated(
+def test_a_sphere_far_too_heavy_is_rejected_before_its_contact_is_tabulated(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """The tables of thousands of modes would take minutes."""
@@ -173,15 +173,15 @@ def test_a_sphere_far_too_heavy_is_refused_before_its_contact_is_tabulated(
         "impact": {"speed": 1e-20},
         "effects": {"edge": False},
     }
-    assert "more than the limit of 20000" in refusal(heavy)
+    assert "more than the limit of 20000" in rejection(heavy)
 
 
 @pytest.mark.parametrize("edge", ["clamped", "simply-supported"])
-def test_plate_with_far_too_many_modes_is_refused_before_they_are_computed(edge: str) -> None:
+def test_plate_with_far_too_many_modes_is_rejected_before_they_are_computed(edge: str) -> None:
     """A plate of 20 km would need hundreds of gigabytes."""
     plate = {"radius": 2e4, "thickness": 0.01, "material": "glass", "edge": edge}
     sphere = {"radius": 0.01, "material": "steel"}
-    text = refusal({"sphere": sphere, "plate": plate, "impact": {"speed": 1.0}})
+    text = rejection({"sphere": sphere, "plate": plate, "impact": {"speed": 1.0}})
     assert "at most 100000 bending modes" in text
     free = {"inertia": {"extent": "infinite"}}
     assert simulate(read({"sphere": sphere, "plate": plate, "impact": {"speed": 1.0}} | free))
@@ -189,7 +189,7 @@ def test_plate_with_far_too_many_modes_is_refused_before_they_are_computed(edge:
 
 @pytest.mark.parametrize("modes", ["auto", 24])
 def test_more_modes_are_a_remedy_only_if_the_scene_gives_their_number(modes: str | int) -> None:
-    """An automatic number has already been increased as far as that is of use."""
+    """An automatic number has already been increased as far as is useful."""
     block = {"radius": 0.1, "thickness": 0.05, "material": "steel", "edge": "simply-supported"}
     scene: dict[str, Any] = {
         "sphere": {"radius": 0.005, "material": "steel"},
@@ -198,13 +198,13 @@ def test_more_modes_are_a_remedy_only_if_the_scene_gives_their_number(modes: str
         "inertia": {"modes": modes},
         "accuracy": {"rtol": 2e-5},
     }
-    text = refusal(scene)
+    text = rejection(scene)
     assert "increase the tolerance" in text
     assert ("inertia.modes" in text) == (modes != "auto")
 
 
-def test_early_estimate_of_omitted_branches_is_of_the_radius_on_the_curved_plate() -> None:
-    """Where the plate is curved less than under a static load, its contact is narrower."""
+def test_early_estimate_of_omitted_branches_uses_the_radius_on_the_curved_plate() -> None:
+    """A plate that is curved less than under a static load has a narrower contact."""
     law = law_of({
         "sphere": {"radius": 0.0125, "material": "ice"},
         "plate": {"radius": 0.7, "thickness": 0.0008, "material": "steel", "loss_factor": 0.05}
@@ -226,7 +226,7 @@ def test_early_estimate_of_omitted_branches_is_of_the_radius_on_the_curved_plate
         ({"sphere": {"radius": 0.016, "mass": 0.13, "material": "steel"}}, "a deflection of less"),
     ],
 )
-def test_what_no_constant_changes_is_refused_before_the_constant_is_determined(
+def test_errors_of_any_constant_are_reported_before_the_constant_is_determined(
     tables: dict[str, Any], reason: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(measured, "_fit", pytest.fail)
@@ -236,4 +236,4 @@ def test_what_no_constant_changes_is_refused_before_the_constant_is_determined(
         "impact": {"speed": 1.0},
         "measured": {"restitution": 0.76, "solve_for": "yield_stress"},
     }
-    assert reason in refusal(scene | tables)
+    assert reason in rejection(scene | tables)

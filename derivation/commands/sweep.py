@@ -11,6 +11,7 @@ from derivation.commands.options import TOLERANCE, VALUES
 from derivation.commands.scenes import SceneFile, check_outputs, title
 from derivation.engine.console import NOTES, OUT, Json, progress_bar, warn, write_json_output
 from derivation.engine.files import write_file
+from derivation.engine.text import paragraph
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -180,8 +181,10 @@ def _run(
     warn(answer.warnings)
     if answer.warned > len(answer.warnings):
         NOTES.say(
-            f"{answer.warned:,} of {answer.points:,} points have warnings or no result; the column "
-            "`reason` of --out FILE lists them."
+            paragraph(
+                f"{answer.warned:,} of {answer.points:,} points have warnings or no result; the "
+                "column `reason` of --out FILE lists them."
+            )
         )
 
 

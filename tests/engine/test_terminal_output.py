@@ -17,6 +17,7 @@ from derivation.cli import main
 from derivation.engine.console import MOST_WARNINGS, UNREAD_STATUS, listing, table, warn
 from derivation.engine.files import ROOT
 from derivation.engine.printable import in_json, one_line, printable
+from derivation.engine.text import WIDTH, with_items
 from derivation.scene import SceneError, load, read
 
 Captured = pytest.CaptureFixture[str]
@@ -85,6 +86,14 @@ def test_long_keys_and_values_are_shortened() -> None:
     with pytest.raises(SceneError) as caught:
         read({"sphere": {"x" * 10**6: 1, "radius": "y" * 10**6}})
     assert len(str(caught.value)) < 2000
+
+
+def test_items_fit_the_screen_and_are_not_broken() -> None:
+    items = [f"x_{i}={1 / 3**i!r} ({(1 / 3**i).hex()})" for i in range(20)]
+    lines = with_items("f:", items).split("\n")
+    assert max(map(len, lines)) <= WIDTH
+    assert len(lines) < len(items)
+    assert " ".join(line.strip() for line in lines) == " ".join(["f:", *items])
 
 
 def test_list_of_warnings_is_shortened(capsys: Captured) -> None:

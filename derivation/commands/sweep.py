@@ -167,7 +167,7 @@ def _run(
 
     with open_store(study, out) as store:
         try:
-            with progress_bar("sweep") as progress:
+            with progress_bar("sweep", alike=True) as progress:
                 computed = compute(store, os.cpu_count() or 1, scheduler, retry, progress)
                 indices = api.write_results(store, out, sensitivity, progress)
         except KeyboardInterrupt:

@@ -1,5 +1,6 @@
 """Output on a terminal: text of the user is escaped, and a closed pipe loses no file."""
 
+import io
 import json
 import os
 import shlex
@@ -14,7 +15,15 @@ import pytest
 from shared_scenes import PAPER
 
 from derivation.cli import main
-from derivation.engine.console import MOST_WARNINGS, UNREAD_STATUS, listing, table, warn
+from derivation.engine.console import (
+    MOST_WARNINGS,
+    UNREAD_STATUS,
+    Screen,
+    listing,
+    table,
+    transient_bar,
+    warn,
+)
 from derivation.engine.files import ROOT
 from derivation.engine.printable import in_json, one_line, printable
 from derivation.engine.text import WIDTH, with_items
@@ -94,6 +103,18 @@ def test_items_fit_the_screen_and_are_not_broken() -> None:
     assert max(map(len, lines)) <= WIDTH
     assert len(lines) < len(items)
     assert " ".join(line.strip() for line in lines) == " ".join(["f:", *items])
+
+
+def test_time_that_is_left_is_shown_if_parts_are_alike(monkeypatch: pytest.MonkeyPatch) -> None:
+    for alike in False, True:
+        shown = io.StringIO()
+        terminal = Screen(file=shown, width=60, force_terminal=True, color_system=None)
+        monkeypatch.setattr("derivation.engine.console.NOTES", terminal)
+        with transient_bar("sweep", alike=alike) as progress:
+            for number in range(1, 4):
+                progress("points", number, 100)
+                time.sleep(0.15)
+        assert (" left" in shown.getvalue()) == alike
 
 
 def test_list_of_warnings_is_shortened(capsys: Captured) -> None:

@@ -19,6 +19,7 @@ from derivation.engine.measure.search import Search, search
 from derivation.engine.measure.search_record import SearchRecord, seconds_of
 from derivation.engine.outputs import folder_for, plain, recorded_in, sorted_json
 from derivation.engine.paper import Paper
+from derivation.engine.text import with_items
 from derivation.plate.benchmark import run as accuracy_run
 from derivation.plate.benchmark import speed, user_calls
 from derivation.plate.contact.cases.check import KERNELS, LIMIT, ContactRow
@@ -55,7 +56,7 @@ def check_contact(progress: Progress = quiet) -> CheckResult:
          f"{r.double.ratio:.2f}", f"{r.budget:g}", "yes" if r.passed else "NO")
         for r in rows
     ]  # fmt: skip
-    worst = [f"{row.kernel}: {' '.join(map(in_both_forms, row.worst))}" for row in rows]
+    worst = [with_items(f"{row.kernel}:", [*map(in_both_forms, row.worst)]) for row in rows]
     return CheckResult(
         "Errors of the contact law",
         (

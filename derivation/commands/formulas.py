@@ -115,7 +115,7 @@ def diagnose(
     The exit status is 1 if they differ.
 
     E and nu are Young's modulus and Poisson's ratio. For a sum over the modes, such as delta, one
-    term of the sum is compared.
+    term of the sum is compared; of another sum without end, the terms of the derived formula.
 
     Example: platecontact diagnose G --formula "1 + 4*T*exp(-2*T)" --at T=3
     """

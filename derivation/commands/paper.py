@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from shlex import quote
 from typing import Annotated
 
 import typer
@@ -128,6 +129,9 @@ def report(
         ),
     ] = None,
     out: Out = None,
+    force: Annotated[
+        bool, typer.Option("--force", help="With --fragment: replace files with other content.")
+    ] = False,
     paper: PaperFolder = None,
 ) -> None:
     """Write the report as LaTeX and HTML, and compile the PDF.
@@ -143,6 +147,8 @@ def report(
         raise ValueError(
             "--check, --section and --fragment cannot be combined; run the command once for each"
         )
+    if force and not (fragment and out):
+        raise ValueError("--force applies to --fragment with --out; remove it, or add them")
     from derivation.engine import report_files
 
     chosen = chosen_paper(paper)
@@ -155,7 +161,7 @@ def report(
         write_output(report_files.fragments(chosen, fragment))
         return
     if fragment and out is not None:
-        written = report_files.write_fragments(chosen, fragment, out)
+        written = report_files.write_fragments(chosen, fragment, out, force)
     else:
         with stage("report"):
             written = report_files.write(chosen, out, pdf, section or ())
@@ -175,11 +181,11 @@ def new(
 
     written = create_paper(folder)
     NOTES.say("\n".join(str(path) for path in written))
-    NOTES.say(f"To build it, run: platecontact build --paper {folder}")
+    NOTES.say(f"To build it, run: platecontact build --paper {quote(str(folder))}")
 
 
 def _repeated(command: str, paper: Path | None, out: Path | None) -> str:
     """Return the command that writes the compared files."""
     options = {"--paper": paper, "--out": out}
-    given = [f" {name} {value}" for name, value in options.items() if value is not None]
+    given = [f" {name} {quote(str(value))}" for name, value in options.items() if value]
     return f"platecontact {command}{''.join(given)}"

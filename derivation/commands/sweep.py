@@ -11,6 +11,7 @@ from derivation.commands.options import TOLERANCE, VALUES
 from derivation.commands.scenes import SceneFile, check_outputs, title
 from derivation.engine.console import NOTES, OUT, Json, progress_bar, warn, write_json_output
 from derivation.engine.files import write_file
+from derivation.engine.text import paragraph
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -166,7 +167,7 @@ def _run(
 
     with open_store(study, out) as store:
         try:
-            with progress_bar("sweep") as progress:
+            with progress_bar("sweep", alike=True) as progress:
                 computed = compute(store, os.cpu_count() or 1, scheduler, retry, progress)
                 indices = api.write_results(store, out, sensitivity, progress)
         except KeyboardInterrupt:
@@ -180,8 +181,10 @@ def _run(
     warn(answer.warnings)
     if answer.warned > len(answer.warnings):
         NOTES.say(
-            f"{answer.warned:,} of {answer.points:,} points have warnings or no result; the column "
-            "`reason` of --out FILE lists them."
+            paragraph(
+                f"{answer.warned:,} of {answer.points:,} points have warnings or no result; the "
+                "column `reason` of --out FILE lists them."
+            )
         )
 
 

@@ -16,8 +16,10 @@ from rich.progress import (
     BarColumn,
     MofNCompleteColumn,
     SpinnerColumn,
+    Task,
     TextColumn,
     TimeElapsedColumn,
+    TimeRemainingColumn,
 )
 from rich.progress import (
     Progress as Display,
@@ -53,6 +55,15 @@ class Screen(Console):
         if not self.stderr:
             raise UnreadError
         silence(sys.stderr)
+
+
+class TimeLeft(TimeRemainingColumn):
+    """The estimated time that is left; empty while there is no estimate."""
+
+    def render(self, task: Task) -> Text:
+        """Return the time that is left, in words."""
+        left = super().render(task)
+        return Text("") if "-" in left.plain else Text.assemble(left, " left")
 
 
 OUT = Screen(emoji=False)
@@ -93,19 +104,35 @@ def stage(name: str) -> Iterator[None]:
 
 
 @contextmanager
-def progress_bar(name: str) -> Iterator[Progress]:
-    """Show a bar for work in parts, and then its duration; yield as `transient_bar`."""
+def progress_bar(name: str, *, alike: bool = False) -> Iterator[Progress]:
+    """Show a bar for work in parts, and then its duration; arguments as for `transient_bar`."""
     start = time.perf_counter()
-    with transient_bar(name) as progress:
+    with transient_bar(name, alike=alike) as progress:
         yield progress
     NOTES.print(f"[green]✓[/] {name} [dim]{time.perf_counter() - start:.1f} s[/]")
 
 
 @contextmanager
-def transient_bar(name: str) -> Iterator[Progress]:
-    """Show a bar and a clock on a terminal; yield the function that reports a part of the work."""
+def transient_bar(name: str, *, alike: bool = False) -> Iterator[Progress]:
+    """Show a bar and a clock on a terminal; yield the function that reports a part of the work.
+
+    Parameters
+    ----------
+    name
+        Name of the work.
+    alike
+        Whether all parts take about the same time: the time that is left is then estimated.
+    """
     part = TextColumn("{task.description}", markup=False)
-    columns = (TextColumn(name), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), part)
+    left = (TimeLeft(),) if alike else ()
+    columns = (
+        TextColumn(name),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        *left,
+        part,
+    )
     with Display(*columns, console=NOTES, transient=True, disable=not NOTES.is_terminal) as bar:
         task = bar.add_task("", total=None)
         yield lambda part, number, total: bar.update(

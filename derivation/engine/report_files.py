@@ -131,18 +131,31 @@ def fragments(paper: Paper, names: Sequence[str]) -> str:
     return formula_fragments(names, paper.chain.derived_steps(), paper.report().prose.references)
 
 
-def write_fragments(paper: Paper, names: Sequence[str], out: Path) -> tuple[Path, ...]:
+def write_fragments(
+    paper: Paper, names: Sequence[str], out: Path, replace: bool = False
+) -> tuple[Path, ...]:
     """Write LaTeX of formulas to ``fragment.tex``, with the bibliography; return the files.
 
     Raises
     ------
     ValueError
-        If a name is neither a formula nor a step.
+        If a name is neither a formula nor a step, or a file has other content and `replace` is
+        false.
     OSError
         If the folder cannot be written to.
     """
     expect_folder(out)
     bibliography = paper.report().prose.references.bib()
-    return write_files(
-        {out / "fragment.tex": fragments(paper, names), out / "report.bib": bibliography}
-    )
+    files = {out / "fragment.tex": fragments(paper, names), out / "report.bib": bibliography}
+    others = [path for path, text in files.items() if path.exists() and not _has(path, text)]
+    if others and not replace:
+        raise ValueError(
+            f"report: {', '.join(map(str, others))} exists already with other content; add --out "
+            "DIR to write into another folder, or --force to replace it"
+        )
+    return write_files(files)
+
+
+def _has(path: Path, text: str) -> bool:
+    """Return whether a path is a file with this text."""
+    return path.is_file() and path.read_bytes() == text.encode()

@@ -16,6 +16,22 @@ def paragraph(text: str, indent: int = 2) -> str:
     return "\n".join(lines)
 
 
+def with_items(head: str, items: Sequence[str]) -> str:
+    """Return a heading and items on as few lines as possible; no line is broken within an item.
+
+    Examples
+    --------
+    >>> print(with_items("f:", ["x=1 (0x1)"] * 9))
+    f: x=1 (0x1) x=1 (0x1) x=1 (0x1) x=1 (0x1) x=1 (0x1) x=1 (0x1) x=1 (0x1)
+      x=1 (0x1) x=1 (0x1)
+    """
+    lines = [head]
+    for item in map(printable, items):
+        fits = len(lines[-1]) + 1 + len(item) <= WIDTH
+        lines[-1:] = [f"{lines[-1]} {item}"] if fits else [lines[-1], f"  {item}"]
+    return "\n".join(lines)
+
+
 def wording(text: str) -> str:
     """Return a text with # in place of each number: similar texts have the same wording.
 

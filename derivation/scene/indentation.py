@@ -49,6 +49,9 @@ HEADS = (
     "#radius [m]", "#indentation [m]", "#force [N]", "#stiffness [N/m]", "#max. pressure [Pa]",
 )  # fmt: skip
 """Column heads of the table of contacts."""
+MOST_SHOWN, UNLIKE = 20, 0.5
+"""Largest number of contacts whose model errors are all shown, and smallest over largest model
+error below which they are."""
 _STEPS, _CLOSE, _FOUND, _HALVINGS = 60, 4e-16, 1e-12, 60
 """Largest number of Newton's steps; relative step that ends the iteration; largest relative step of
 an accepted result; number of halvings of an interval."""
@@ -101,10 +104,15 @@ class StaticContacts(tuple[StaticContact, ...]):
 
     @property
     def model_note(self) -> str:
-        """The largest model error, in words; empty if there is none."""
-        error = max((contact.model_error for contact in self), default=0.0)
-        size = up_to(error) if math.isfinite(error) else "unknown"
-        return f"Model error: {size}" if error else ""
+        """The largest model error, or those of a few contacts if they differ; empty without one."""
+        errors = [contact.model_error for contact in self]
+        if not any(errors):
+            return ""
+        sizes = [up_to(error) if math.isfinite(error) else "unknown" for error in errors]
+        if len(set(sizes)) == 1 or len(sizes) > MOST_SHOWN or min(errors) > UNLIKE * max(errors):
+            return f"Model error: {sizes[errors.index(max(errors))]}"
+        plain = ", ".join(size.removeprefix("up to ") for size in sizes)
+        return paragraph(f"Model error of each row, at most: {plain}")
 
     def __str__(self) -> str:
         """Return the table as text, with model error and warnings."""

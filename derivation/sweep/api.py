@@ -116,7 +116,7 @@ def sweep(
     if sensitivity or path is None or path.suffix not in READ_AS_NEEDED:
         check_memory(study, "sweep")
     with open_store(study, path) as store:
-        with transient_bar("sweep") as progress:
+        with transient_bar("sweep", alike=True) as progress:
             compute(store, workers, scheduler, retry, progress)
             indices = write_results(store, path, sensitivity, progress)
         data = data_set(store) if path is None or fits_in_memory(study) else _of_file(path)

@@ -63,7 +63,9 @@ class Sensitivities:
             f"Sensitivity indices with {100 * CONFIDENCE:.0f} % confidence intervals, "
             f"from {self.runs:,} runs"
         )
-        return f"{title}\n\n{aligned(['key', '#first order', '#total order'], rows)}"
+        text = f"{title}\n\n{aligned(['key', '#first order', '#total order'], rows)}"
+        unnamed = "unknown: accuracy.outputs does not name these results"
+        return f"{text}\n\n{unnamed}" if self.unbounded else text
 
     def to_json(self) -> list[dict[str, Any]]:
         """Return a row for each result and key; null where the indices are NaN."""

@@ -111,7 +111,7 @@ class Summary:
         text = (
             f"{self.points:,} points: {counts} ({self.computed:,} computed in this run)\n\n"
             f"{aligned(['result', '#smallest', '#largest', 'unit'], rows)}\n\n"
-            f"Accuracy: {accuracy}"
+            f"{paragraph(f'Accuracy: {accuracy}')}"
         )
         if self.disabled:
             names = ", ".join(self.disabled)

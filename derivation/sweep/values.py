@@ -38,8 +38,14 @@ def numbers_among(key: str, values: Any) -> tuple[float, ...]:
     SceneError
         If they are not finite numbers, or some of them are masked.
     """
-    remedy = "give sample=N" if isinstance(values, Mapping) else "give a list"
-    error = SceneError(f"{key}: expected finite numbers, got {one_line(repr(values))}; {remedy}")
+    remedy = (
+        "give sample=N"
+        if isinstance(values, Mapping)
+        else "give a list such as [1e-3, 2e-3], or of names only"
+    )
+    error = SceneError(
+        f"{key}: expected finite numbers, at least one, got {one_line(repr(values))}; {remedy}"
+    )
     try:
         given = np.asarray(values)
         if given.dtype.kind in "bmM" or np.ma.is_masked(values):

@@ -24,6 +24,7 @@ from derivation.engine.measure import suite
 from derivation.engine.measure.case import read_cases
 from derivation.engine.measure.suite import Suite
 from derivation.engine.paper import Paper
+from derivation.engine.text import WIDTH
 from derivation.plate import judge as plate_judge
 from derivation.plate import paper as plate_paper
 from derivation.plate.benchmark.speed import SpeedTiming
@@ -131,7 +132,8 @@ def test_contact_law_agrees_with_the_record(few_contacts: Path, capsys: Captured
     shown = capsys.readouterr().out
     for row in known:
         worst = " ".join(f"{float.fromhex(exact)!r} ({exact})" for exact in row["worst"])
-        assert f"{row['kernel']}: {worst}" in shown
+        assert f"{row['kernel']}: {worst}" in " ".join(shown.split())
+    assert max(map(len, shown.splitlines())) <= WIDTH
     assert main(["check", "contact-law", "--suggest-budgets", "--json", "-"]) == 0
     suggested = json.loads(capsys.readouterr().out)["suggested_budgets"]
     for name, ulp in suggested.items():

@@ -108,6 +108,7 @@ def test_completion_script_is_printed_and_completes() -> None:
         (["check", "search", "--sed", "3"], "see `platecontact check search --help`"),
         (["report", "--check", "--fragment", "K_j"], "--check"),
         (["report", "--section", "law", "--fragment", "K_j"], "--section"),
+        (["report", "--fragment", "K_j", "--force"], "--force"),
         (["rewrite", "x", "--update"], "FORMULA"),
         (["rewrite", "x", "--variable", "1"], "--variable: "),
         (["rewrite", "x", "--where", "y < 1"], "--where: "),

@@ -1,5 +1,6 @@
 """Output on a terminal: text of the user is escaped, and a closed pipe loses no file."""
 
+import io
 import json
 import os
 import shlex
@@ -14,9 +15,18 @@ import pytest
 from shared_scenes import PAPER
 
 from derivation.cli import main
-from derivation.engine.console import MOST_WARNINGS, UNREAD_STATUS, listing, table, warn
+from derivation.engine.console import (
+    MOST_WARNINGS,
+    UNREAD_STATUS,
+    Screen,
+    listing,
+    table,
+    transient_bar,
+    warn,
+)
 from derivation.engine.files import ROOT
 from derivation.engine.printable import in_json, one_line, printable
+from derivation.engine.text import WIDTH, with_items
 from derivation.scene import SceneError, load, read
 
 Captured = pytest.CaptureFixture[str]
@@ -85,6 +95,26 @@ def test_long_keys_and_values_are_shortened() -> None:
     with pytest.raises(SceneError) as caught:
         read({"sphere": {"x" * 10**6: 1, "radius": "y" * 10**6}})
     assert len(str(caught.value)) < 2000
+
+
+def test_items_fit_the_screen_and_are_not_broken() -> None:
+    items = [f"x_{i}={1 / 3**i!r} ({(1 / 3**i).hex()})" for i in range(20)]
+    lines = with_items("f:", items).split("\n")
+    assert max(map(len, lines)) <= WIDTH
+    assert len(lines) < len(items)
+    assert " ".join(line.strip() for line in lines) == " ".join(["f:", *items])
+
+
+def test_time_that_is_left_is_shown_if_parts_are_alike(monkeypatch: pytest.MonkeyPatch) -> None:
+    for alike in False, True:
+        shown = io.StringIO()
+        terminal = Screen(file=shown, width=60, force_terminal=True, color_system=None)
+        monkeypatch.setattr("derivation.engine.console.NOTES", terminal)
+        with transient_bar("sweep", alike=alike) as progress:
+            for number in range(1, 4):
+                progress("points", number, 100)
+                time.sleep(0.15)
+        assert (" left" in shown.getvalue()) == alike
 
 
 def test_list_of_warnings_is_shortened(capsys: Captured) -> None:

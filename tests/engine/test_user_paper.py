@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -165,7 +166,7 @@ def test_report_check_fragment_and_section(folder: Path, tmp_path: Path) -> None
         shown = run("report", "--check", *paper, home=folder.parent, status=1)
     finally:
         edited.write_text(original)
-    assert f"platecontact report --paper {folder}" in shown
+    assert f"platecontact report --paper {shlex.quote(str(folder))}" in shown
 
 
 def test_rewrite_report_is_written(folder: Path) -> None:

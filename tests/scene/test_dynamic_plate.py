@@ -142,6 +142,17 @@ def test_animation_shows_the_motion_of_the_plate(tmp_path: Path, monkeypatch: An
     assert not (tmp_path / "still.gif").exists()
 
 
+def test_animation_for_a_browser_needs_no_network(result: Any, monkeypatch: Any) -> None:
+    from derivation.scene.output import animation
+
+    monkeypatch.setattr(animation, "FRAMES", 2)
+    page = animation.render(result, ".html").decode()
+    assert "http" not in page.replace("http://www.w3.org", "")
+    assert "fa-" not in page
+    assert page.count("<button") == len(animation.BUTTONS)
+    assert all(f"{text}</button>" in page for text in animation.BUTTONS.values())
+
+
 def test_profiles_are_zero_at_the_edge_and_correct_at_the_axis(result: Any) -> None:
     times = np.linspace(0.1, 0.9, 5) * result.total_time
     profiles = result.dynamics.profiles(times, np.array([0.0, result.model.b]))

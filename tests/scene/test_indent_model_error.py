@@ -1,8 +1,10 @@
 """The model error of static contacts: that of an impact, and of stretching in each quantity."""
 
 import math
+import re
 from typing import Any
 
+import numpy as np
 import pytest
 from scipy.optimize import brentq
 
@@ -65,3 +67,16 @@ def test_an_unknown_model_error_is_stated() -> None:
     assert contacts[0].model_error == math.inf
     assert contacts[0].to_json()["model_error"] is None
     assert "Model error: unknown" in str(contacts)
+
+
+def test_model_errors_of_few_contacts_are_shown_if_they_differ() -> None:
+    scene = read(tables("clamped"))
+    errors = [contact.model_error for contact in indent(scene, force=[1.0, 300.0])]
+    assert errors[1] > 4 * errors[0]
+    note = indent(scene, force=[1.0, 300.0]).model_note
+    first, second = (float(text) / 100 for text in re.findall(r"([\d.]+) %", note))
+    assert errors[0] <= first < 1.1 * errors[0]
+    assert errors[1] <= second < 1.1 * errors[1]
+    assert indent(scene, force=[1.0, 1.01]).model_note.startswith("Model error: up to ")
+    many = indent(scene, force=np.geomspace(1.0, 300.0, 50)).model_note
+    assert many == f"Model error: up to {100 * second:.2g} %"

@@ -97,6 +97,43 @@ def test_a_rejection_begins_with_the_warning() -> None:
             run()
 
 
+def test_each_warning_before_an_error_has_a_line() -> None:
+    plate = {"radius": 150.0, "thickness": 8.0, "youngs_modulus": 70.0, "poissons_ratio": 0.2}
+    sphere, impact = {"radius": 8.0, "material": "glass"}, {"speed": 4.4}
+    scene = read({"sphere": sphere, "plate": plate | {"density": 2.5}, "impact": impact})
+    with pytest.raises(SceneError) as error:
+        simulate(scene)
+    lines = str(error.value).split("\n")
+    assert [line.split()[0] for line in lines] == [
+        "plate.youngs_modulus",
+        "plate.density",
+        "sphere.radius",
+        "plate.radius",
+        "effects.inertia:",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("rtol", "remedy"),
+    [
+        (5, "for 5 % write 0.05"),
+        (2.5, "for 2.5 % write 0.025"),
+        (1e-14, "`platecontact reference SCENE.toml --digits N`"),
+        (np.float32(1e-14), "`platecontact reference SCENE.toml --digits N`"),
+        (0.0, "write for example 0.01"),
+        (float("nan"), "write for example 0.01"),
+        (True, "write for example 0.01"),
+    ],
+)
+def test_remedy_of_a_tolerance_fits_its_value(rtol: float, remedy: str) -> None:
+    with pytest.raises(SceneError) as error:
+        simulate(read(SCENE), rtol=rtol)
+    assert str(error.value).endswith(remedy)
+    if rtol == 5:
+        with pytest.raises(SceneError, match=r"accuracy\.rtol.*for 5 % write 0\.05"):
+            read(SCENE | {"accuracy": {"rtol": 5}})
+
+
 def test_rows_have_the_warnings_of_single_scenes() -> None:
     scene = read(SCENE | {"effects": {"inertia": False}, "accuracy": {"rtol": 0.01}})
     columns = {

@@ -9,6 +9,7 @@ from derivation.scene import read, simulate
 from derivation.scene.dynamic.stretching_error import USABLE
 from derivation.scene.dynamic.unlike_bodies import unlike_bodies_errors
 from derivation.scene.output import answer
+from derivation.scene.output.error_causes import causes
 from derivation.scene.result import Result
 from derivation.scene.selection.method_selection import growth_of
 
@@ -64,6 +65,48 @@ def test_the_summary_begins_with_results_that_are_not_usable() -> None:
     assert result.model_errors["max_force"] < 0.1
     usable = changed(HAIL, "impact", speed=0.05)
     assert not str(simulate(read(usable))).startswith("NOT")
+
+
+SOFT: dict[str, dict[str, Any]] = {
+    "sphere": {"radius": 0.02, "youngs_modulus": 4e6, "poissons_ratio": 0.49, "mass": 0.024},
+    "plate": {"radius": 0.5, "thickness": 0.012, "material": "PMMA", "edge": "simply-supported"},
+    "impact": {"speed": 20.0},
+}
+
+
+STATIC = changed(SOFT, "plate", thickness=0.1) | {"effects": {"inertia": False}}
+
+
+@pytest.mark.parametrize("scene", [SOFT, STATIC])
+def test_a_contact_as_wide_as_the_sphere_is_named_with_a_speed(scene: Any) -> None:
+    result = simulate(read(scene))
+    note = re.search(
+        r"of the sphere's radius.* about 10 %: ([\d.]+) (\w?)m/s", result.unusable_note
+    )
+    assert note
+    assert result.unusable_note.startswith("NOT USABLE: contact time, max indentation")
+    assert "Uncertain" not in str(result)
+    assert "mostly by the finite size of the sphere)" in " ".join(str(result).split())
+    speed = float(note[1]) * PREFIX[note[2]]
+    slower = simulate(read(changed(scene, "impact", speed=speed)))
+    assert 0.5 * USABLE < slower.model_error < 1.6 * USABLE
+    assert not slower.unusable_note
+
+
+@pytest.mark.parametrize("scene", [HAIL, PANE, SOFT, BALL])
+def test_causes_of_a_model_error_are_its_parts(scene: Any) -> None:
+    result = simulate(read(scene))
+    for name, error in result.model_errors.items():
+        parts = causes(result, name)
+        assert min(parts.values()) >= 0.0
+        assert sum(parts.values()) == pytest.approx(error, rel=1e-4)
+
+
+def test_the_largest_cause_is_named() -> None:
+    result = simulate(read(PANE))
+    assert "mostly by stretching of the plate" in " ".join(answer.short(result).split())
+    percentages = re.findall(r"\) ([\d.]+) %", answer.model_note(result))
+    assert sum(map(float, percentages)) == pytest.approx(100 * result.model_error, rel=0.02)
 
 
 def own_times_error(result: Result) -> float:

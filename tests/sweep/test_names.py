@@ -163,6 +163,7 @@ def test_finished_points_are_not_repeated(tmp_path: Path) -> None:
         ({"plate.material": ["glass"], "plate.youngs_modulus": "1e9:2e9:3"}, "replace each other"),
         ({"plate.colour": ["red"]}, "numbers or names"),
         ({"impact.speed": ["fast"]}, "expected finite numbers"),
+        ({"impact.speed": []}, "at least one, got []; give a list such as"),
     ],
 )
 def test_invalid_names_are_rejected_before_the_computation(

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from derivation.engine.formula.latex_tokens import without_display
 from derivation.engine.formula.parse import FormulaError
 from derivation.engine.formula.record import Record
+from derivation.engine.formula.vocabulary import names_by_latex
 
 _OPENING, _CLOSING = "([{", ")]}"
 _LAYOUT = re.compile(
@@ -50,6 +51,18 @@ def arguments_by_name(formulas: Mapping[str, Record]) -> dict[str, tuple[str, ..
     """Return the arguments that the symbols of formulas show, such as t of ``delta_0(t)``."""
     shown = ((name, _ARGUMENTS.search(_plain(f.latex)[0])) for name, f in formulas.items())
     return {name: tuple(match[1].split(",")) for name, match in shown if match}
+
+
+def arguments_on_the_left(text: str, formula: Record) -> dict[str, tuple[str, ...]]:
+    """Return the arguments of the left-hand side, such as t of ``P(t) =``, by each symbol.
+
+    The symbols of the formula may be written as functions of the same arguments. There are none if
+    the formula itself depends on one of them, which may then be a factor in brackets.
+    """
+    match = _ARGUMENTS.search(_plain(_sides(text)[0] or "")[0])
+    arguments = tuple(match[1].split(",")) if match else ()
+    letters = names_by_latex(formula.arguments)
+    return {} if letters.keys() & arguments else dict.fromkeys(letters, arguments)
 
 
 def _sides(text: str) -> tuple[str | None, str]:

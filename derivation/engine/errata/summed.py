@@ -9,6 +9,7 @@ import sympy as sp
 from derivation.engine.formula.parse import FormulaError, parse
 from derivation.engine.formula.record import Record
 from derivation.engine.formula.vocabulary import Vocabulary
+from derivation.engine.printable import one_line
 
 _LATEX_SUM = (
     r"(?P<factor>[^+]*?)\\sum(?:\\limits)?\s*_\s*(?:\{{\s*{index}\s*(?:=\s*1\s*)?\}}|{index})"
@@ -42,8 +43,8 @@ def without_latex_sum(text: str, vocabulary: Vocabulary) -> str:
     match = re.fullmatch(_LATEX_SUM.format(index=_index(vocabulary)), text, re.DOTALL)
     if count and (match is None or match["term"].lstrip().startswith("^")):
         raise FormulaError(
-            f"expected a sum over all modes, got {text:.60}: give one term of the sum, or write "
-            r"c \sum_{j=1}^{\infty} and the term"
+            f"expected a sum over all modes, got {one_line(text.strip(), 60)}: give one term of "
+            r"the sum, or write c \sum_{j=1}^{\infty} and the term"
         )
     if match is None:
         return text
@@ -121,7 +122,42 @@ def _check_limits(call: ast.Call, source: str, vocabulary: Vocabulary) -> None:
         or call.keywords
     ):
         raise FormulaError(
-            f"expected a sum over all modes, got {source:.60}: write Sum(..., (j, 1, oo))"
+            f"expected a sum over all modes, got {one_line(source, 60)}: write Sum(..., (j, 1, oo))"
+        )
+
+
+def check_sum(formula: Record, text: str, latex: bool) -> None:
+    """Reject a sum over the modes if the formula is not one: its term would be compared.
+
+    Raises
+    ------
+    FormulaError
+        If the text contains such a sum.
+    """
+    has_sum = re.search(r"\\sum(?![A-Za-z])", text) if latex else _sums(" ".join(text.split()))
+    if has_sum and not formula.summed:
+        raise FormulaError(
+            f"{formula.name} is not a sum over the modes: give the formula without a sum, "
+            "or the name of another one"
+        )
+
+
+def check_references(formula: Record, given: sp.Expr, formulas: Mapping[str, Record]) -> None:
+    """Reject names of sums over the modes in a formula that is not one.
+
+    A name alone is compared with each formula.
+
+    Raises
+    ------
+    FormulaError
+        If the expression contains such names; their expressions are those of one mode.
+    """
+    names = {symbol.name for symbol in given.free_symbols} - formula.vocabulary.by_name.keys()
+    sums = sorted(name for name in names & formulas.keys() if formulas[name].summed)
+    if sums and not formula.summed and not given.is_Symbol:
+        raise FormulaError(
+            f"{formula.name} is not a sum over the modes, but {', '.join(sums)} is: compare a "
+            "formula without it"
         )
 
 

@@ -16,12 +16,14 @@ from derivation.engine.errata import summed
 from derivation.engine.errata.compare import Diagnosis, diagnose, relations_between
 from derivation.engine.errata.equation import (
     arguments_by_name,
+    arguments_on_the_left,
     checked_right_hand_side,
     right_hand_side,
 )
 from derivation.engine.errata.lookup import comparable, known_formula, resolve
 from derivation.engine.errata.point import completed_point, exact_values, other_points, parse_point
 from derivation.engine.errata.relations import Point, Relations
+from derivation.engine.errata.written_out import written_out
 from derivation.engine.formula.ball import PrecisionError, enclose, evaluate, to_ball
 from derivation.engine.formula.chain import Chain
 from derivation.engine.formula.parse import FormulaError
@@ -57,7 +59,7 @@ class TextDiagnosis:
         Decimal values, correctly rounded; without a chosen point, `NOT_REAL` or `NOT_PRINTED` if
         the given formula has no such value at the default point and near it.
     compared
-        Note that one term of a sum was compared; None for other formulas.
+        Note on the terms of a sum that were compared; None for other formulas.
     """
 
     diagnosis: Diagnosis
@@ -132,7 +134,9 @@ def diagnose_text(
     text
         The formula in SymPy syntax, or in LaTeX if `latex`; it may contain names of other formulas,
         and begin with the formula's own name or symbol and an equals sign. For a sum over modes one
-        term is expected, or ``Sum(..., (j, 1, oo))``.
+        term is expected, or ``Sum(..., (j, 1, oo))``. Of a sum over another number, such as
+        ``Sum(xi_k*delta**((2*k - 1)/3), (k, 2, oo))``, the terms of the derived formula are
+        compared.
     formulas
         The derived formulas by name.
     relations
@@ -154,9 +158,12 @@ def diagnose_text(
     chosen = exact_values(at or {}, vocabulary, relations)
     references = {n: sp.Symbol(n, real=True) for n in comparable(formulas)}
     also = {**references, **vocabulary.guest_names}
+    applied = arguments_on_the_left(text, formula) | arguments_by_name(formulas)
     text = checked_right_hand_side(text, formula)
-    applied = arguments_by_name(formulas)
+    text, terms = written_out(text, vocabulary, latex=latex, formula=formula, formulas=formulas)
+    summed.check_sum(formula, text, latex)
     given = read(text, vocabulary, also, latex, _letters(formula), applied)
+    summed.check_references(formula, given, formulas)
     summed.check_contribution(formula, resolve(given, formulas, vocabulary))
     diagnosis = diagnose(name, given, formulas, relations)
     derived = formula.expression
@@ -178,7 +185,8 @@ def diagnose_text(
             sides, itertools.chain([point], further), vocabulary, digits, derived_value
         )
     shown = tuple((n, literal) for n, (literal, _) in point.items())
-    return TextDiagnosis(diagnosis, shown, given_value, derived_value, summed.note(formula))
+    notes = filter(None, (summed.note(formula), terms))
+    return TextDiagnosis(diagnosis, shown, given_value, derived_value, "; ".join(notes) or None)
 
 
 def diagnose_limited(
@@ -211,10 +219,10 @@ def diagnose_limited(
     """
     point = parse_point(at)
     # A text that cannot be parsed, whatever its names mean, is rejected before the derivation.
-    right = right_hand_side(text)
+    vocabulary = chain.vocabulary
+    right, _ = written_out(right_hand_side(text), vocabulary, latex=latex)
     words = re.findall(r"[A-Za-z]\w*" if latex else r"[A-Za-z]\w*+(?! *\()", right)
     anything = {word: sp.Symbol(word) for word in words}
-    vocabulary = chain.vocabulary
     run_limited(lambda: read(right, vocabulary, anything, latex) and None, "reading the formula")
     known = chain.formulas()
     return run_limited(

@@ -15,7 +15,7 @@ import sympy as sp
 from derivation.engine.measure.check import Row
 from derivation.engine.measure.result import CheckResult
 from derivation.engine.outputs import plain_rows, sorted_json
-from derivation.engine.text import paragraph
+from derivation.engine.text import paragraph, with_items
 
 COLUMNS = (
     "function",
@@ -51,9 +51,9 @@ def cells(row: Row) -> tuple[str, ...]:
 def worst(row: Row) -> str:
     """Return the arguments with the largest ratio of error to allowance, decimal and exact."""
     worst_row = row.double.worst
-    arguments = " ".join(f"{name}={text} ({exact})" for name, exact, text in worst_row.arguments)
-    modes = f" modes={worst_row.modes}" if worst_row.modes else ""
-    return f"{row.kernel}: {arguments}{modes}"
+    arguments = [f"{name}={text} ({exact})" for name, exact, text in worst_row.arguments]
+    modes = [f"modes={worst_row.modes}"] if worst_row.modes else []
+    return with_items(f"{row.kernel}:", arguments + modes)
 
 
 def unconfirmed(rows: Sequence[Row]) -> tuple[str, ...]:

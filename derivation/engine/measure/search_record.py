@@ -12,6 +12,7 @@ from derivation.engine.measure.point import Point, in_both_forms
 from derivation.engine.measure.search import LargeError, Search, point_error
 from derivation.engine.measure.target import Target
 from derivation.engine.outputs import plain
+from derivation.engine.text import with_items
 
 COLUMNS = ("function", "#evaluations", "#ratio", "#ULP", "#allowed", "new")
 """Headings of the table; `ratio` is the largest error over its allowance, and the next two columns
@@ -208,14 +209,14 @@ def cells(kernel: str, search: Search, book: SearchRecord) -> tuple[str, ...]:
 
 
 def arguments(kernel: str, search: Search) -> str:
-    """Return a function's worst arguments, decimal and hexadecimal, in one line."""
+    """Return a function's worst arguments, decimal and hexadecimal."""
     worst = search.states[kernel].worst
     if worst is None:
         return f"{kernel}:"
     inputs = case_of(kernel, worst, search.seed).inputs.items()
     texts = [f"{name}={', '.join(map(in_both_forms, exact))}" for name, exact in inputs]
     modes = [] if worst.point.modes is None else [f"modes={worst.point.modes}"]
-    return f"{kernel}: {' '.join(texts + modes)}"
+    return with_items(f"{kernel}:", texts + modes)
 
 
 def as_data(search: Search) -> dict[str, Any]:

@@ -51,10 +51,11 @@ def _pieces(
 
 
 def fragment(step: str, formula: Record, references: References) -> str:
-    """Return a formula as LaTeX: its meaning, an equation with a label, and a comment.
+    """Return a formula as LaTeX: its meaning, an equation with a label, and comments.
 
-    The comment states the formulas from which it follows, and the step that verified it. Lines fit
-    a column of a two-column paper, and the LaTeX needs no definitions of its own.
+    The comments state the formulas from which it follows, the step that verified it, and the
+    symbols. Lines fit a column of a two-column paper, and the LaTeX needs no definitions of its
+    own.
     """
     paper = r"~\cite{paper}" if "paper" in references.entries else " the paper"
     of = f", equation~({formula.equation}) of{paper}" if formula.equation else ""
@@ -62,9 +63,15 @@ def fragment(step: str, formula: Record, references: References) -> str:
     see = rf"; see~\cite{{{','.join(sources)}}}" if sources else ""
     came = f", from {', '.join(formula.sources)}" if formula.sources else ""
     lines = body(formula, room=COLUMN)
+    used = formula.shown.free_symbols
+    symbols = "".join(
+        f"% ${argument.latex}$ [{argument.unit}]: {argument.meaning}\n"
+        for argument in formula.vocabulary.arguments
+        if argument.symbol in used
+    )
     meaning = prose(formula.meaning[0].upper() + formula.meaning[1:])
     return (
-        f"% {formula.name} [{formula.unit}]{came}; verified: {formula.proof.step}\n"
+        f"% {formula.name} [{formula.unit}]{came}; verified: {formula.proof.step}\n{symbols}"
         f"{meaning}{of}{see}:\n"
         f"\\begin{{equation}}\\label{{eq:{formula.name}}}\n{lines}\n\\end{{equation}}\n"
     )

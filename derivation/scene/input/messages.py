@@ -3,6 +3,7 @@
 import json
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from numbers import Real
 from typing import Any
 
 from pydantic import BaseModel
@@ -111,10 +112,23 @@ ELSEWHERE = {
     "file defines another one",
     "edge": '; if the contact ends before waves return from the edge, set extent = "infinite" in '
     "[inertia]: then the edge has no effect",
-    "rtol": "; for more digits than double precision has, run "
-    "`platecontact reference SCENE.toml --digits N`",
 }
 """Remedies for values beyond the range of a key."""
+
+
+def tolerance_remedy(value: Any) -> str:
+    """Return what to do about a tolerance that is not in its range, after a semicolon."""
+    if not isinstance(value, Real) or isinstance(value, bool):
+        return ""
+    number = float(value)
+    if 1.0 < number <= 100.0:
+        return f"; for {number:g} % write {number / 100.0:g}"
+    if 0.0 < number < 1.0:
+        return (
+            "; for more digits than double precision has, run `platecontact reference SCENE.toml "
+            "--digits N`"
+        )
+    return ""
 
 
 def shown(value: Any) -> str:
@@ -183,7 +197,7 @@ def explain(kind: str, location: tuple[int | str, ...], value: Any, fields: Fiel
         example = f'`{key} = "{suggestion}"`'
     if kind == "missing":
         return f"{name}: {expected}, got nothing; add {example} to [{table}]"
-    elsewhere = ELSEWHERE.get(key, "")
+    elsewhere = tolerance_remedy(value) if key == "rtol" else ELSEWHERE.get(key, "")
     text = field.examples and not isinstance(field.examples[0], (int, float))
     if isinstance(value, str) and not text:
         return f"{name}: {expected}, got {shown(value)}; {_unquoted(key, value, field)}{elsewhere}"

@@ -88,8 +88,11 @@ def unit_warnings(scene: Scene) -> tuple[str, ...]:
 
 
 def with_unit_warnings(error: SceneError, warnings: tuple[str, ...]) -> SceneError:
-    """Return the error of a scene after the warnings on units, which are its likely cause."""
-    return SceneError("; ".join((*warnings, str(error))))
+    """Return the error of a scene after the warnings on units, which are its likely cause.
+
+    Each begins on a line of its own.
+    """
+    return SceneError("\n  ".join((*warnings, str(error))))
 
 
 @np.errstate(all="ignore")

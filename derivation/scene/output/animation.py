@@ -1,5 +1,6 @@
 """Animates an impact on a plate with inertia: deflection profile and position of the sphere."""
 
+import re
 import tempfile
 from pathlib import Path
 
@@ -14,6 +15,12 @@ from generated.arrays import Double as Array
 SUFFIXES = ".gif", ".html"
 FRAMES, POINTS, PER_SECOND = 120, 201, 20
 """Number of frames, points of the profile, and frames per second."""
+BUTTONS = {
+    "minus": "&minus;", "plus": "+", "pause": "&#10074;&#10074;", "play": "&#9654;",
+    "play fa-flip-horizontal": "&#9664;", "step-backward": "&#9664;|", "step-forward": "|&#9654;",
+    "fast-backward": "|&#9664;&#9664;", "fast-forward": "&#9654;&#9654;|",
+}  # fmt: skip
+"""Text of each button by the name of its symbol in Matplotlib's page."""
 
 
 def render(result: Result, suffix: str) -> bytes:
@@ -69,14 +76,22 @@ def render(result: Result, suffix: str) -> bytes:
         axes.set_title(f"$t$ = {t[k]:.3g} {unit}", fontsize=10)
         return [plate, sphere]
 
+    made.draw_without_rendering()
+    made.set_layout_engine(None)  # the layout of the first frame remains
     movie = FuncAnimation(made, draw, frames=FRAMES, interval=1000.0 / PER_SECOND)  # type: ignore[arg-type]
     if suffix.lower() == ".html":
         with mpl.rc_context({"animation.embed_limit": 50.0}):
-            return movie.to_jshtml(fps=PER_SECOND).encode()
+            return _without_fonts(movie.to_jshtml(fps=PER_SECOND)).encode()
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "impact.gif"
         movie.save(path, writer=PillowWriter(fps=PER_SECOND), dpi=100)
         return path.read_bytes()
+
+
+def _without_fonts(page: str) -> str:
+    """Return a page of Matplotlib whose buttons need no symbols from the network."""
+    page = re.sub(r'<link[^>]*href="https?:[^>]*>', "", page)
+    return re.sub(r'<i class="fa fa-([^"]+)"></i>', lambda icon: BUTTONS[icon[1]], page)
 
 
 def _limits(profiles: Array, displacement: Array) -> tuple[float, float]:

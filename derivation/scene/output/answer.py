@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 
 from derivation.engine.text import aligned, paragraph
 from derivation.scene.contact_law.yield_warnings import assumed_yield_stress, risen_pressure
+from derivation.scene.dynamic.stretching_error import USABLE
+from derivation.scene.output.error_causes import PLATE, SPHERE, STRETCHING, TIMES, causes
 from derivation.scene.output.result_errors import largest_within_error, unknown
-from derivation.scene.quantity import digits_of, prefixed, significant, up_to
+from derivation.scene.quantity import digits_of, percent, prefixed, significant, up_to
 
 if TYPE_CHECKING:
     from derivation.scene.dynamic.wave_motion import DynamicImpact
@@ -17,6 +19,9 @@ if TYPE_CHECKING:
 UNLIKE = 0.5
 """Ratio of the smallest to the largest model error, below which the result with the largest is
 named."""
+NEGLIGIBLE = 1e-3
+"""Ratio of a part of the model error to the total, below which its cause is not named, except for
+the edge."""
 CONTACT_HEADS = "#start [s]", "#end [s]", "#impulse [N s]", "#peak force [N]", "#speed ratio"
 """Column heads of the table of contacts."""
 
@@ -117,10 +122,31 @@ def _model_error(result: "Result") -> str:
     if not result.model_error:
         return ""
     errors = result.model_errors
-    name = max(result.effects.outputs, key=lambda output: errors[output])
+    name = _with_largest_error(result)
     others = min(errors[output] for output in result.effects.outputs)
-    whose = f" ({name.replace('_', ' ')})" if others < UNLIKE * result.model_error else ""
-    return f", model error {up_to(result.model_error)}{whose}"
+    notes = [name.replace("_", " ")] if others < UNLIKE * result.model_error else []
+    if result.model_error >= USABLE:
+        parts = causes(result, name)
+        notes.append(f"mostly by {_in_words(result)[max(parts, key=parts.__getitem__)]}")
+    remark = f" ({', '.join(notes)})" if notes else ""
+    return f", model error {up_to(result.model_error)}{remark}"
+
+
+def _with_largest_error(result: "Result") -> str:
+    """Return the requested output with the largest model error."""
+    return max(result.effects.outputs, key=lambda output: result.model_errors[output])
+
+
+def _in_words(result: "Result") -> dict[str, str]:
+    """Return the causes of a model error in words."""
+    own = "plate and edge" if result.dynamics is not None else f"the {result.model.edge} edge"
+    sphere = "the finite size of the sphere"
+    return {
+        PLATE: own,
+        STRETCHING: "stretching of the plate",
+        SPHERE: sphere if result.effects.law.softness else "the motion of the faces",
+        TIMES: "different retardation times of sphere and plate",
+    }
 
 
 def _stress_error(result: "Result") -> str:
@@ -135,18 +161,22 @@ def model_note(result: "Result") -> str:
     """Return the model error as a sentence; empty if there is none."""
     if not result.model_error:
         return ""
-    parts = ["stretching of the plate (estimated)"]
-    if result.effects.law.softness:
-        parts.append("the finite size of the sphere (estimated)")
-    if result.dynamics is not None:
-        parts.insert(0, "plate and edge (measured against explicit finite-element simulations)")
-    elif result.effects.law.other_edge:
-        parts.insert(0, f"the {result.model.edge} edge (measured against a 3-D elastic solution)")
-    if result.effects.law.viscous and result.model.retardation_spread:
-        parts.append("different retardation times of sphere and plate (estimated)")
+    name = _with_largest_error(result)
+    measured = (
+        "measured against explicit finite-element simulations"
+        if result.dynamics is not None
+        else "measured against a 3-D elastic solution"
+    )
+    applies = result.dynamics is not None or result.effects.law.other_edge
+    words = _in_words(result)
+    parts = [
+        f"of {words[cause]} ({measured if cause == PLATE else 'estimated'}) {percent(error)}"
+        for cause, error in causes(result, name).items()
+        if error >= NEGLIGIBLE * result.model_error or (cause == PLATE and applies)
+    ]
     return (
-        f"Not included in this bound: model error {up_to(result.model_error)}, of "
-        f"{' and of '.join(parts)}"
+        f"Not included in this bound: model error {up_to(result.model_error)} in "
+        f"{name.replace('_', ' ')}, {', '.join(parts)}"
     )
 
 

@@ -1,23 +1,25 @@
 """States which results are not usable because of their model error, and how to make them usable."""
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from derivation.scene.contact_law.limits import local_indentation
-from derivation.scene.dynamic.stretching_error import USABLE, Deflections, deflections_of
-from derivation.scene.dynamic.unlike_bodies import unlike_bodies_errors
-from derivation.scene.model_errors import model_errors
+from derivation.scene.dynamic.stretching_error import USABLE, Deflections
+from derivation.scene.output.error_causes import (
+    SMALLEST,
+    deflections_of_result,
+    errors_of,
+    retardation_errors,
+    sphere_errors,
+)
 from derivation.scene.quantity import NO_DIGITS, percent, prefixed, up_to
 from derivation.scene.scene import OUTPUTS
-from derivation.scene.selection.method_selection import growth_of
 
 if TYPE_CHECKING:
     from derivation.scene.result import Result
 
-SMALLEST, STEPS = 1e-5, 30
-"""Smallest part of the deflection that a message considers, and number of bisections for it."""
+STEPS = 30
+"""Number of bisections for the part of a deflection or a contact radius."""
 THICKER = 2.5
 """Power of the thickness by which the deflection over it decreases: w = v0 sqrt(m/k) under a heavy
 sphere, on a plate of stiffness k ~ H^3. Under a light sphere it decreases faster, as H^-3."""
@@ -35,24 +37,21 @@ def unusable(result: "Result") -> tuple[str, ...]:
 def in_words(result: "Result") -> str:
     """Return which results are not usable, why, and how to make them usable.
 
-    Empty if all are usable, or not because of other errors than those by stretching of the plate
-    and by different retardation times of sphere and plate.
+    Empty if all are usable. The cause is the largest of stretching of the plate, the finite size of
+    the sphere and different retardation times of both, if it is large enough alone.
     """
     names = unusable(result)
     if not names:
         return ""
-    why = _by_retardation(result) or _by_stretching(result)
+    why = _by_retardation(result) or _by_stretching(result) or _by_sphere(result)
     listed = ", ".join(name.replace("_", " ") for name in names)
     return f"NOT USABLE: {listed}. {why}" if why else ""
 
 
 def _by_retardation(result: "Result") -> str:
     """Return the remedy if different retardation times make all results useless."""
-    model, motion = result.model, result.dynamics
-    by_time = unlike_bodies_errors(
-        result.effects.law, result.contact_time, motion, growth_of(motion)
-    )
-    error = max(by_time.values())
+    model = result.model
+    error = max(retardation_errors(result).values())
     if error < NO_DIGITS:
         return ""
     why = (
@@ -79,8 +78,8 @@ def _by_retardation(result: "Result") -> str:
 
 def _by_stretching(result: "Result") -> str:
     """Return the remedies if stretching of the plate makes results useless."""
-    model, deflections = result.model, _deflections(result)
-    least = _errors(result, deflections.times(SMALLEST))
+    model, deflections = result.model, deflections_of_result(result)
+    least = errors_of(result, deflections.times(SMALLEST))
     by_it = {name: result.model_errors[name] - least[name] for name in OUTPUTS}
     parts = {
         name: _part(result, deflections, name, least[name] + USABLE)
@@ -102,29 +101,30 @@ def _by_stretching(result: "Result") -> str:
     )
 
 
-def _errors(result: "Result", deflections: Deflections) -> dict[str, float]:
-    """Return the model errors of an impact with other deflections."""
-    numbers = (
-        result.contact_time, result.max_indentation, result.max_force, result.max_contact_radius,
-        result.restitution,
-    )  # fmt: skip
-    return model_errors(result.effects.law, numbers, deflections, result.dynamics)
-
-
-def _deflections(result: "Result") -> Deflections:
-    """Return the deflections that the model errors refer to."""
-    law = result.effects.law
-    if result.dynamics is not None:
-        return deflections_of(law, result.dynamics)
-    local = float(local_indentation(law, result.max_contact_radius))
-    return Deflections(result.max_indentation - local, np.zeros(0))
+def _by_sphere(result: "Result") -> str:
+    """Return the remedy if the finite size of the sphere makes results useless."""
+    error = max(sphere_errors(result).values())
+    if error < NO_DIGITS:
+        return ""
+    part = _largest(lambda part: max(sphere_errors(result, part).values()) <= USABLE)
+    # In a Hertzian contact the radius is proportional to the power 2/5 of the speed.
+    speed = " ".join(prefixed(result.model.v0 * part**2.5, "m/s", 2))
+    return (
+        f"The contact radius is {result.max_contact_radius / float(result.model.R):.2g} of the "
+        "sphere's radius, and the model treats the sphere as a half-space "
+        f"(error {up_to(error)}). Speed for an error of about {percent(USABLE)}: {speed}."
+    )
 
 
 def _part(result: "Result", deflections: Deflections, name: str, most: float) -> float:
     """Return the largest part of the deflection with which an error is at most `most` [1]."""
+    return _largest(lambda part: errors_of(result, deflections.times(part))[name] <= most)
+
+
+def _largest(allowed: Callable[[float], bool]) -> float:
+    """Return the largest part, from `SMALLEST` to 1, that is allowed."""
     low, high = math.log(SMALLEST), 0.0
     for _ in range(STEPS):
         middle = 0.5 * (low + high)
-        enough = _errors(result, deflections.times(math.exp(middle)))[name] <= most
-        low, high = (middle, high) if enough else (low, middle)
+        low, high = (middle, high) if allowed(math.exp(middle)) else (low, middle)
     return math.exp(low)

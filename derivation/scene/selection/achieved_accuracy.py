@@ -135,7 +135,8 @@ class AchievedAccuracy:
     @property
     def largest_part(self) -> str:
         """The largest part of the bound, in words."""
-        return NAMES[max(self.parts, key=lambda name: self.parts[name].bound)]
+        largest = max(self.parts, key=lambda name: self.parts[name].bound)
+        return "the constant" if largest == "constant" else NAMES[largest]
 
     @property
     def summary(self) -> str:

@@ -21,7 +21,7 @@ from derivation.scene.dynamic.unmet_tolerances import duration_may_jump, out_of_
 from derivation.scene.effects import BY_NAME, PAPER
 from derivation.scene.effects.effect import Results
 from derivation.scene.errors import SceneError, ToleranceError
-from derivation.scene.input.messages import shown
+from derivation.scene.input.messages import shown, tolerance_remedy
 from derivation.scene.model import Model
 from derivation.scene.quantity import rounded_up
 from derivation.scene.quasi_static import motion, simple_laws
@@ -58,9 +58,8 @@ def check_rtol(rtol: float) -> float:
     number = isinstance(rtol, Real) and not isinstance(rtol, bool)  # NumPy's numbers too
     if not number or not TIGHTEST <= rtol <= 1:
         raise SceneError(
-            f"rtol: expected a relative tolerance from {TIGHTEST:g} to 1, got {shown(rtol)}; for "
-            "more digits than double precision has, run `platecontact reference SCENE.toml "
-            "--digits N`"
+            f"rtol: expected a relative tolerance from {TIGHTEST:g} to 1, got {shown(rtol)}"
+            + (tolerance_remedy(rtol) or "; write for example 0.01")
         )
     return float(rtol)
 

@@ -347,6 +347,24 @@ def test_fragments_are_written_with_the_bibliography(tmp_path: Path) -> None:
     assert (tmp_path / "fragment.tex").read_text().count(r"\begin{equation}") == 2
 
 
+def test_fragments_replace_only_equal_files_unless_asked(tmp_path: Path) -> None:
+    for _ in range(2):
+        report_files.write_fragments(PAPER, ["G"], tmp_path)
+    mine = tmp_path / "fragment.tex"
+    mine.write_text("mine")
+    with pytest.raises(ValueError, match="exists already with other content"):
+        report_files.write_fragments(PAPER, ["G"], tmp_path)
+    assert mine.read_text() == "mine"
+    report_files.write_fragments(PAPER, ["G"], tmp_path, replace=True)
+    assert "equation" in mine.read_text()
+
+
+def test_fragment_states_its_symbols() -> None:
+    lines = report_files.fragments(PAPER, ["delta"]).splitlines()
+    assert "% $R$ [m]: sphere radius" in lines
+    assert not [line for line in lines if "J_1" in line and line.startswith("% $")]
+
+
 def test_listings_are_the_generated_functions_without_docstrings() -> None:
     source = Path(influence.__file__).read_text()
     cut = function_source(source, "G")

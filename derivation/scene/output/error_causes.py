@@ -1,0 +1,78 @@
+"""The parts of a result's model error by their causes."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from derivation.scene.contact_law.finite_sphere import finite_sphere_errors
+from derivation.scene.contact_law.limits import local_indentation
+from derivation.scene.dynamic.stretching_error import Deflections, deflections_of
+from derivation.scene.dynamic.unlike_bodies import unlike_bodies_errors
+from derivation.scene.effects.effect import Results
+from derivation.scene.model_errors import model_errors
+from derivation.scene.scene import OUTPUTS
+from derivation.scene.selection.method_selection import growth_of
+
+if TYPE_CHECKING:
+    from derivation.scene.result import Result
+
+SMALLEST = 1e-5
+"""Part of the deflection that does not stretch the plate."""
+PLATE, STRETCHING, SPHERE, TIMES = "plate", "stretching", "sphere", "retardation times"
+
+
+def causes(result: "Result", name: str) -> dict[str, float]:
+    """Return the parts of the model error of an output [1] by cause: `PLATE` (with edge), ...
+
+    `SPHERE` includes the motion of the faces. Their sum is the model error.
+    """
+    model_error = result.model_errors[name]
+    without = errors_of(result, deflections_of_result(result).times(SMALLEST))[name]
+    stretching = max(model_error - without, 0.0)
+    sphere, times = sphere_errors(result)[name], retardation_errors(result)[name]
+    plate = max(model_error - stretching - sphere - times, 0.0)
+    return {PLATE: plate, STRETCHING: stretching, SPHERE: sphere, TIMES: times}
+
+
+def numbers_of(result: "Result") -> Results:
+    """Return the outputs in the order of `OUTPUTS`."""
+    return (
+        result.contact_time, result.max_indentation, result.max_force, result.max_contact_radius,
+        result.restitution,
+    )  # fmt: skip
+
+
+def errors_of(result: "Result", deflections: Deflections) -> dict[str, float]:
+    """Return the model errors of an impact with other deflections."""
+    return model_errors(result.effects.law, numbers_of(result), deflections, result.dynamics)
+
+
+def sphere_errors(result: "Result", part: float = 1.0) -> dict[str, float]:
+    """Return the model errors by the finite size of the sphere and the motion of the faces.
+
+    Parameters
+    ----------
+    part
+        Part of the contact radius [1]; the indentation is proportional to its square.
+    """
+    time, depth, force, a, restitution = numbers_of(result)
+    numbers = time, part**2 * depth, force, part * a, restitution
+    growth = growth_of(result.dynamics)
+    return dict(
+        zip(OUTPUTS, finite_sphere_errors(result.effects.law, numbers, growth), strict=True)
+    )
+
+
+def retardation_errors(result: "Result") -> dict[str, float]:
+    """Return the model errors by different retardation times of sphere and plate."""
+    motion = result.dynamics
+    return unlike_bodies_errors(result.effects.law, result.contact_time, motion, growth_of(motion))
+
+
+def deflections_of_result(result: "Result") -> Deflections:
+    """Return the deflections that the model errors refer to."""
+    law = result.effects.law
+    if result.dynamics is not None:
+        return deflections_of(law, result.dynamics)
+    local = float(local_indentation(law, result.max_contact_radius))
+    return Deflections(result.max_indentation - local, np.zeros(0))

@@ -65,6 +65,19 @@ def test_infinite_plate_does_not_depend_on_the_radius() -> None:
         assert actual[0].restitution == pytest.approx(0.747, abs=1e-3)
 
 
+def test_infinite_plate_of_unknown_density_is_refused() -> None:
+    """However stiff: the restitution tends to 0 with the density, and depends on no radius."""
+    ball = {"radius": 0.01, "mass": 1e-3, "youngs_modulus": 2e11, "poissons_ratio": 0.3}
+    block = {"radius": 0.06, "thickness": 0.1, "youngs_modulus": 2e11, "poissons_ratio": 0.3}
+    scene = {"sphere": ball, "plate": block, "impact": {"speed": 1e-3}, "accuracy": {"rtol": 0.3}}
+    endless: dict[str, Any] = {"inertia": {"extent": "infinite"}}
+    assert simulate(read(scene)).accuracy.bound < 0.05
+    with pytest.raises(SceneError, match=r"^plate\.density: expected a density"):
+        simulate(read(scene | endless))
+    light = simulate(read(scene | endless | {"plate": block | {"density": 1e-4}}))
+    assert light.restitution < 0.5
+
+
 REJECTED = [row for row in DATA["impacts"] if "rejected" in row["program"]]
 SIMULATED = [row for row in DATA["impacts"] if row not in REJECTED]
 

@@ -153,7 +153,7 @@ def accuracy(
     path = recorded_in(MEASURED_ACCURACY, update, out)
     case = None
     if scene is not None:
-        model = model_of(load(scene))
+        model = model_of(load(scene), quasi_static=True)
         case = accuracy_run.scene_case(**dict(zip(NUMBERS, model.numbers, strict=True)))
     data = accuracy_run.measure(methods, quick, case, progress)
     if path is not None:

@@ -203,7 +203,7 @@ def indent(
 
 def static_law(scene: Scene) -> ContactLaw:
     """Return the law with every effect that applies to a static contact and is not disabled."""
-    model, wanted = model_of(scene), scene.effects.model_dump()
+    model, wanted = model_of(scene, quasi_static=True), scene.effects.model_dump()
     check_enabled(scene, model)
     present = (
         effect.name

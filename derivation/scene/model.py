@@ -228,8 +228,16 @@ class Model:
         }
 
 
-def model_of(scene: Scene) -> Model:
+def model_of(scene: Scene, quasi_static: bool = False) -> Model:
     """Return the quantities of a scene.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    quasi_static
+        Whether the plate has no inertia. It then has the radius and edge of the scene although this
+        makes it infinite: without inertia an infinite plate would deflect without limit.
 
     Raises
     ------
@@ -242,7 +250,7 @@ def model_of(scene: Scene) -> Model:
 
         scene = fitted(scene)
     model = numbers_of(scene)
-    if model.inertia.infinite_plate and model.density:
+    if model.inertia.infinite_plate and model.density and not quasi_static:
         model = replace(model, b=_infinite_plate_radius(model), edge="paper")
     for name, value in zip(NUMBERS, model.numbers, strict=True):
         if not math.isfinite(value) or (value <= 0 and name != "lam"):
@@ -318,7 +326,8 @@ def _inertia(scene: Scene) -> InertiaSettings:
     if wanted is None:
         return InertiaSettings()
     modes = 0 if wanted.modes == "auto" else wanted.modes
-    pointwise, infinite = wanted.coupling == "pointwise", wanted.extent == "infinite"
+    pointwise, disabled = wanted.coupling == "pointwise", scene.effects.inertia is False
+    infinite = wanted.extent == "infinite" and not disabled
     return InertiaSettings(modes, wanted.branches, pointwise, infinite)
 
 

@@ -11,7 +11,7 @@ import pytest
 
 import derivation.scene
 from derivation.engine.files import measurements
-from derivation.scene import SceneError, read, simulate
+from derivation.scene import SceneError, indent, read, simulate
 from derivation.scene.contact_law.edge_remainder import edge_remainder
 from derivation.scene.dynamic.model_error import inertia_error
 from derivation.scene.model import model_of
@@ -63,6 +63,32 @@ def test_infinite_plate_does_not_depend_on_the_radius() -> None:
         assert actual[0].restitution == actual[1].restitution
         assert differ(actual[0], actual[2]) < 1e-4
         assert actual[0].restitution == pytest.approx(0.747, abs=1e-3)
+
+
+def test_infinite_plate_of_unknown_density_is_rejected() -> None:
+    """However stiff: the restitution tends to 0 with the density, and depends on no radius."""
+    ball = {"radius": 0.01, "mass": 1e-3, "youngs_modulus": 2e11, "poissons_ratio": 0.3}
+    block = {"radius": 0.06, "thickness": 0.1, "youngs_modulus": 2e11, "poissons_ratio": 0.3}
+    scene = {"sphere": ball, "plate": block, "impact": {"speed": 1e-3}, "accuracy": {"rtol": 0.3}}
+    endless: dict[str, Any] = {"inertia": {"extent": "infinite"}}
+    assert simulate(read(scene)).accuracy.bound < 0.05
+    with pytest.raises(SceneError, match=r"^plate\.density: expected a density"):
+        simulate(read(scene | endless))
+    light = simulate(read(scene | endless | {"plate": block | {"density": 1e-4}}))
+    assert light.restitution < 0.5
+
+
+def test_extent_does_not_change_a_quasi_static_plate() -> None:
+    """Without inertia an infinite plate has radius and edge of the scene, whatever the density."""
+    scene = dict(pane(0.1, 0.005, edge="clamped"), effects={"inertia": False})
+    endless: dict[str, Any] = {"inertia": {"extent": "infinite"}}
+    finite, infinite = simulate(read(scene)), simulate(read(scene | endless))
+    assert "edge" in infinite.effects.included
+    assert differ(infinite, finite) == 0.0
+    moving = {key: table for key, table in scene.items() if key != "effects"}
+    slow = moving | endless | {"impact": {"speed": 0.1}}
+    contacts = [indent(read(one), force=10.0)[0] for one in (scene, moving | endless, slow)]
+    assert len({contact.indentation for contact in contacts}) == 1
 
 
 REJECTED = [row for row in DATA["impacts"] if "rejected" in row["program"]]

@@ -114,6 +114,8 @@ class PlateInertia(Effect):
             return dynamic_deviation(phase, rise, viscous)
 
         off = force / context.depth * total_deviation(model, a, T, deviation)
+        if model.inertia.infinite_plate and not np.all(model.density):
+            off = np.full_like(off, np.inf)  # the lighter the plate, the further it deflects
         more = higher_branch_error(model, a, T) if np.all(model.density) else 5 * (0.0,)
         none = none_of(context.radii)
         logs: list[Numbers] = [

@@ -68,7 +68,8 @@ class Inertia(Table):
         converge with the number of modes, so that no error bound is stated.
     extent
         "finite", the default: a plate with an edge; or "infinite": no wave returns from the edge,
-        and radius and edge of the plate have no effect.
+        and radius and edge of the plate have no effect. An infinite plate needs a density. A static
+        contact, and a plate whose inertia is disabled, have the radius and edge of the scene.
 
     Examples
     --------

@@ -236,8 +236,8 @@ def model_of(scene: Scene, quasi_static: bool = False) -> Model:
     scene
         The scene.
     quasi_static
-        Whether the plate has no inertia. It then has the radius and edge of the scene although this
-        makes it infinite: without inertia an infinite plate would deflect without limit.
+        Whether the plate has no inertia. It then has the radius and edge in the scene even if its
+        extent is infinite: without inertia an infinite plate would deflect without limit.
 
     Raises
     ------

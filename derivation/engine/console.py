@@ -94,13 +94,19 @@ MOST_WARNINGS = 20
 """Largest number of warnings shown."""
 
 
+def _say_duration(name: str, start: float) -> None:
+    """Print the duration of a stage, with a tick if the encoding of the output has one."""
+    tick = "[green]✓[/] " if "✓".encode(NOTES.encoding, "ignore") else ""
+    NOTES.print(f"{tick}{name} [dim]{time.perf_counter() - start:.1f} s[/]")
+
+
 @contextmanager
 def stage(name: str) -> Iterator[None]:
     """Show that a stage is running, and then its duration."""
     start = time.perf_counter()
     with NOTES.status(f"{name} ..."):
         yield
-    NOTES.print(f"[green]✓[/] {name} [dim]{time.perf_counter() - start:.1f} s[/]")
+    _say_duration(name, start)
 
 
 @contextmanager
@@ -109,7 +115,7 @@ def progress_bar(name: str, *, alike: bool = False) -> Iterator[Progress]:
     start = time.perf_counter()
     with transient_bar(name, alike=alike) as progress:
         yield progress
-    NOTES.print(f"[green]✓[/] {name} [dim]{time.perf_counter() - start:.1f} s[/]")
+    _say_duration(name, start)
 
 
 @contextmanager

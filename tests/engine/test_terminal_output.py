@@ -15,6 +15,7 @@ import pytest
 from shared_scenes import PAPER
 
 from derivation.cli import main
+from derivation.engine import console
 from derivation.engine.console import (
     MOST_WARNINGS,
     UNREAD_STATUS,
@@ -37,6 +38,17 @@ SAFE = r"\x1b[31m[bold red]x\x9b2J\u202e\ud800:smile:\x07"
 
 
 # --- text of the user
+
+
+@pytest.mark.parametrize(("encoding", "tick"), [("ascii", ""), ("utf-8", "✓ ")])
+def test_stages_end_with_a_tick_that_the_encoding_has(
+    encoding: str, tick: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = io.TextIOWrapper(io.BytesIO(), encoding, errors="backslashreplace", write_through=True)
+    monkeypatch.setattr(console, "NOTES", Screen(file=file))
+    with console.stage("derive"):
+        pass
+    assert file.buffer.getvalue().decode(encoding).startswith(f"{tick}derive ")
 
 
 def test_control_characters_are_escaped() -> None:

@@ -326,8 +326,8 @@ def _inertia(scene: Scene) -> InertiaSettings:
     if wanted is None:
         return InertiaSettings()
     modes = 0 if wanted.modes == "auto" else wanted.modes
-    pointwise, disabled = wanted.coupling == "pointwise", scene.effects.inertia is False
-    infinite = wanted.extent == "infinite" and not disabled
+    pointwise = wanted.coupling == "pointwise"
+    infinite = wanted.extent == "infinite" and not scene.effects.quasi_static
     return InertiaSettings(modes, wanted.branches, pointwise, infinite)
 
 

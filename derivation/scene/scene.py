@@ -81,8 +81,7 @@ class Effects(Table):
     bending, finite_thickness, finite_radius, edge, inertia, damping
         Effects of the plate, with the same values.
     compare_paper_motion
-        Whether to compare the result with the paper's perturbation motion; by default False. The
-        results do not change.
+        Whether to print the paper's perturbation motion, too; by default False.
 
     Examples
     --------
@@ -115,6 +114,11 @@ class Effects(Table):
         description="also print the paper's perturbation motion; the results do not change",
         examples=[True],
     )
+
+    @property
+    def quasi_static(self) -> bool:
+        """Whether the inertia of the plate is disabled."""
+        return self.inertia is False
 
 
 class Scene(Table):
@@ -266,8 +270,6 @@ def load(path: str | Path) -> Scene:
 
 def load_with_distributions(path: str | Path) -> tuple[Scene, Mapping[str, Any]]:
     """Return the scene of a file, and its table `[vary]` of distributions for a sample.
-
-    The table is not part of the scene.
 
     Raises
     ------

@@ -123,7 +123,7 @@ def tolerance_remedy(value: Any) -> str:
     number = float(value)
     if 1.0 < number <= 100.0:
         return f"; for {number:g} % write {number / 100.0:g}"
-    if 0.0 < number < 1.0:
+    if 0.0 <= number < 1.0:
         return (
             "; for more digits than double precision has, run `platecontact reference SCENE.toml "
             "--digits N`"

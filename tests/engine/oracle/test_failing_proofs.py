@@ -115,7 +115,7 @@ def test_tail_of_a_sum_is_described_by_its_power(power: int, message: str) -> No
     actual = divergence.tail(phi**power)
     assert actual.exponent == power
     assert actual.kind == (divergence.CONVERGENT if power < -1 else divergence.DIVERGENT)
-    assert actual.says.split(", ")[0].endswith(message)
+    assert actual.finding.split(", ")[0].endswith(message)
 
 
 @pytest.mark.parametrize("law", [(-3.1, 4.9), (2.4, -0.8, -2.5)])

@@ -175,14 +175,14 @@ class Marched:
         def difference_at(a: float) -> float:
             at = problem.contact.at(np.array([a]))
             depth = (float(at.depth[0]) + self.added(a) / problem.contact.R) / problem.depth
-            return depth + float((1.0 + at.less[0]) @ q) - float(y[0])
+            return depth + float((1.0 + at.weights_less_one[0]) @ q) - float(y[0])
 
         return float(brentq(difference_at, 1e-9, 0.99 * problem.contact.top, xtol=1e-16))
 
     def rate(self, _: float, y: np.ndarray) -> np.ndarray:
         problem, (q, q_dot) = self.problem, np.split(y[2:], 2)
         at = problem.contact.at(np.array([self.radius(y) if y[0] > 0.0 else 1e-9]))
-        modal_force = at.felt[0][problem.contact.modes.shape] / problem.force
+        modal_force = at.modal_forces[0][problem.contact.modes.shape] / problem.force
         pull = problem.inverse_modal_mass * modal_force - problem.omega**2 * q
         return np.concatenate(([y[1], -float(at.force[0]) / problem.force], q_dot, pull))
 

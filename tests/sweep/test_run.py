@@ -25,7 +25,7 @@ from derivation.sweep import run
 
 POINTS = 40
 STUDY = ("--vary", f"impact.speed=0.5:2:{POINTS}")
-PATIENCE = 100.0
+PATIENCE = 300.0
 
 
 def wait(condition: Callable[[], object]) -> None:

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import generated
 from generated import manifest
 
 pytestmark = [pytest.mark.usefixtures("no_warning"), pytest.mark.one_version]
@@ -74,3 +75,15 @@ def test_a_sum_has_a_value_in_its_whole_domain(row: dict[str, Any]) -> None:
     inside = in_domain(row, given)
     assert inside.sum() > COUNT / 5
     assert not np.isnan(function(*given.values(), modes=2)[inside]).any()
+
+
+@pytest.mark.parametrize("name", ["Omega_1", "Omega_2"])
+def test_constants_of_a_plate_of_the_largest_thickness_tend_to_those_of_a_half_space(
+    name: str,
+) -> None:
+    """e^(phi h) Omega tends to h/(2 mu) for phi h >> 1, and Omega itself to 0."""
+    phi, h, lam, mu = 1.0, 1.7e308, 1.0, 2.0
+    assert getattr(generated, name)(phi, h, lam, mu) == 0.0
+    assert getattr(generated, f"{name}_scaled")(phi, h, lam, mu) == pytest.approx(
+        h / 4.0, rel=1e-15
+    )

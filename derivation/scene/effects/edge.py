@@ -54,7 +54,7 @@ class Edge(PlateEffect):
         return "" if model.edge in (SUPPORTED, CLAMPED) else "the plate has the paper's edge"
 
     def without_change(self, scene: Scene) -> bool:
-        """Return whether the plate has another edge, but no wave returns from it."""
+        """Return whether the scene gives such an edge, which an infinite plate does not have."""
         return scene.plate.edge in (SUPPORTED, CLAMPED)
 
     def value(self, model: Model, a: float) -> float:

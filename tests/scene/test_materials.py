@@ -119,6 +119,10 @@ BAD: list[tuple[Tables, str]] = [
         "materials.a.densty: |density?",
     ),
     (
+        tables(STEEL, STEEL, materials={"a.b": RUBBER | {"E": 1e9, "rho": 900.0}}),
+        "[Pa] is materials.a.b.youngs_modulus; rename|.rho: |is materials.a.b.density; rename",
+    ),
+    (
         tables(STEEL, STEEL, materials={"a": RUBBER | {"poissons_ratio": 0.5}}),
         "materials.a.poissons_ratio: |0.5",
     ),

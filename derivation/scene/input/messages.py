@@ -1,6 +1,7 @@
 """Error messages about a scene: what was expected, what was given, what to do."""
 
 import json
+import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from numbers import Real
@@ -68,9 +69,14 @@ _MEASURED = (
 )
 _FOUNDATION = "the plate is supported at its edge only, without a foundation; remove the key"
 _DAMPING = "damping is given by the loss factor, twice the damping ratio of each mode; write "
-_SYMBOL = "{} is {}; rename the key"
-_MODULUS = "E", "young", "youngs", "modulus", "elastic_modulus", "young_modulus", "stiffness"
-_RATIO = "nu", "poisson", "poissons", "poisson_ratio"
+_SYMBOLS = {
+    "youngs_modulus": (
+        "E", "young", "youngs", "modulus", "elastic_modulus", "young_modulus", "stiffness",
+    ),
+    "poissons_ratio": ("nu", "poisson", "poissons", "poisson_ratio"),
+    "density": ("rho",),
+}  # fmt: skip
+"""Other names that users may expect of keys of a body or material."""
 _EXPECTED_KEYS = {
     ("sphere", _SOLID): (
         "thickness", "wall_thickness", "shell_thickness", "wall", "hollow", "inner_radius",
@@ -92,12 +98,6 @@ _EXPECTED_KEYS = {
         "height", "drop_height", "fall_height", "h", "energy", "drop",
     ),
     ("impact", "the impact speed [m/s] is impact.speed; rename the key"): ("velocity", "v", "v0"),
-    ("sphere", _SYMBOL.format("Young's modulus [Pa]", "sphere.youngs_modulus")): _MODULUS,
-    ("plate", _SYMBOL.format("Young's modulus [Pa]", "plate.youngs_modulus")): _MODULUS,
-    ("sphere", _SYMBOL.format("Poisson's ratio", "sphere.poissons_ratio")): _RATIO,
-    ("plate", _SYMBOL.format("Poisson's ratio", "plate.poissons_ratio")): _RATIO,
-    ("sphere", _SYMBOL.format("the density [kg/m^3]", "sphere.density")): ("rho",),
-    ("plate", _SYMBOL.format("the density [kg/m^3]", "plate.density")): ("rho",),
     ("accuracy", "the relative tolerance is accuracy.rtol; rename the key"): (
         "tolerance", "tol", "accuracy", "error", "relative_tolerance", "eps",
     ),
@@ -114,6 +114,8 @@ ELSEWHERE = {
     "[inertia]: then the edge has no effect",
 }
 """Remedies for values beyond the range of a key."""
+ENDLESS = ' and, for an infinite plate, extent = "infinite" in [inertia]'
+"""Remedy for an infinite radius."""
 
 
 def tolerance_remedy(value: Any) -> str:
@@ -201,6 +203,8 @@ def explain(kind: str, location: tuple[int | str, ...], value: Any, fields: Fiel
     text = field.examples and not isinstance(field.examples[0], (int, float))
     if isinstance(value, str) and not text:
         return f"{name}: {expected}, got {shown(value)}; {_unquoted(key, value, field)}{elsewhere}"
+    if name == "plate.radius" and value == math.inf:
+        elsewhere = ENDLESS
     return f"{name}: {expected}, got {shown(value)}; write for example {example}{elsewhere}"
 
 
@@ -267,6 +271,11 @@ def _unknown(location: tuple[int | str, ...], fields: Fields) -> str:
         )
     if location in UNKNOWN:
         return f"{name}: unknown key: {UNKNOWN[location]}"
+    for usual, others in _SYMBOLS.items():
+        field = fields.get(str(location[0]), {}).get(usual)
+        if field and key in others:
+            where = f"{_name(location[:-1])}.{usual}"
+            return f"{name}: unknown key: {field.description} is {where}; rename the key"
     homes = [f"[{table}]" for table, keys in fields.items() if key in keys]
     if len(location) == 1:
         known = [*(table for table in fields if "." not in table), OWN_MATERIALS]

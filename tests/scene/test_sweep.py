@@ -110,6 +110,11 @@ def test_invalid_sweeps_give_one_message(text: str) -> None:
     assert "\n" not in str(caught.value)
 
 
+def test_too_many_values_of_a_key_name_a_way_to_more_points() -> None:
+    with pytest.raises(SceneError, match=r"100000 values of a key.*several keys, or --sample N$"):
+        sweep.parse("impact.speed=1:2:100000000")
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [

@@ -102,7 +102,7 @@ _EXPECTED_KEYS = {
         "tolerance", "tol", "accuracy", "error", "relative_tolerance", "eps",
     ),
 }  # fmt: skip
-UNKNOWN = {
+UNKNOWN: dict[Any, str] = {
     (table, key): reason for (table, reason), keys in _EXPECTED_KEYS.items() for key in keys
 } | {(table, "restitution"): _MEASURED for table in ("sphere", "plate", "impact")}
 """What to do instead of each key that users may expect but that does not exist."""
@@ -261,6 +261,15 @@ def choice_problem(
     return f"[{table}]: expected either {wanted}, got {got}; {remedy}"
 
 
+def instead(location: tuple[int | str, ...], fields: Fields) -> str:
+    """Return what to write instead of a key that users may expect; empty for any other key."""
+    for usual, others in _SYMBOLS.items():
+        field = fields.get(str(location[0]), {}).get(usual)
+        if field and location[-1] in others:
+            return f"{field.description} is {_name(location[:-1])}.{usual}; rename the key"
+    return UNKNOWN.get(location, "")
+
+
 def _unknown(location: tuple[int | str, ...], fields: Fields) -> str:
     name = _name(location)
     key = str(location[-1])
@@ -269,13 +278,9 @@ def _unknown(location: tuple[int | str, ...], fields: Fields) -> str:
             "vary: expected distributions only in a scene file, for `platecontact sweep SCENE.toml "
             "--sample N`; give them to `sweep` in Python"
         )
-    if location in UNKNOWN:
-        return f"{name}: unknown key: {UNKNOWN[location]}"
-    for usual, others in _SYMBOLS.items():
-        field = fields.get(str(location[0]), {}).get(usual)
-        if field and key in others:
-            where = f"{_name(location[:-1])}.{usual}"
-            return f"{name}: unknown key: {field.description} is {where}; rename the key"
+    other = instead(location, fields)
+    if other:
+        return f"{name}: unknown key: {other}"
     homes = [f"[{table}]" for table, keys in fields.items() if key in keys]
     if len(location) == 1:
         known = [*(table for table in fields if "." not in table), OWN_MATERIALS]

@@ -101,6 +101,7 @@ BAD: list[tuple[Tables, str]] = [
     (tables({"material": "stel"}, STEEL), "sphere.material|steel?"),
     (tables({"material": "my-ise"}, STEEL, materials=OWN), "my ice?"),
     (tables({"material": "tennis ball"}, STEEL), "sphere.material|hollow"),
+    (tables({"material": "Table tennis"}, STEEL), "sphere.material|hollow"),
     (tables({"material": "hollow steel ball"}, STEEL), "sphere.material|hollow"),
     (tables(STEEL, {"material": 3}), "plate.material: |3"),
     (tables({"material": "paper"}, STEEL), "sphere.material|mass = 72"),

@@ -43,9 +43,11 @@ def significant(value: float, digits: int) -> str:
 
     Examples
     --------
-    >>> significant(0.5, 3), significant(374.6, 1)
-    ('0.500', '4e+02')
+    >>> significant(0.5, 3), significant(374.6, 1), significant(0.0, 12)
+    ('0.500', '4e+02', '0')
     """
+    if value == 0.0:  # it has no significant digits
+        return "0"
     return f"{value:#.{digits}g}".removesuffix(".").replace(".e", "e")
 
 

@@ -160,7 +160,8 @@ def _spaced(span: str) -> tuple[float, ...]:
         ) from None
     if len(parts) != 3 or not 1 <= count <= MOST or not np.isfinite([first, last]).all():
         raise SceneError(
-            f"sweep: expected finite ends and 1 to {MOST} values, got {span!r:.60}; {EXAMPLE}"
+            f"sweep: expected finite ends and 1 to {MOST} values of a key, got {span!r:.60}; "
+            f"{EXAMPLE}; for more points, `platecontact sweep` takes several keys, or --sample N"
         )
     if logarithmic and min(first, last) <= 0:
         raise SceneError(

@@ -4,7 +4,9 @@ Names have no axis of numbers: they are labelled positions whose points are not 
 another key varies too, each name has its own curve.
 """
 
+import re
 from collections.abc import Sequence
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,6 +15,7 @@ from derivation.engine.nearest import did_you_mean
 from derivation.engine.printable import one_line
 from derivation.scene.errors import SceneError
 from derivation.scene.input.keys import takes_names
+from derivation.scene.input.messages import OWN_MATERIALS
 from derivation.scene.output.plot import BLUE, BROWN, saved, scaled
 from derivation.scene.result import UNITS
 from derivation.scene.sweep import SYMBOLS
@@ -45,6 +48,8 @@ KEY_SYMBOLS = {
 TEX = {"δ": r"\delta", "σ": r"\sigma"}
 LARGEST_FIGURE = 3
 """Largest number of panels in a row."""
+WIDEST_LABEL = 34
+"""Largest number of characters of a line beside bars."""
 MOST_COLORS, MOST_LINES, LONGEST_NAME, MOST_LETTERS = 10, 18, 30, 30
 """Largest number of curves with clearly different colours, of names below each other in a legend,
 of characters of a name, and of letters of all names side by side."""
@@ -110,6 +115,7 @@ def figure(data: "xr.Dataset", keys: Sequence[str], results: Sequence[str]) -> "
     for name, axes in zip(results, panels[: len(results)], strict=True):
         if "first_order" in data:
             _bars(axes, data, name)
+            axes.tick_params("y", labelleft=axes.get_subplotspec().is_first_col())
         elif len(keys) == 1 or any(map(takes_names, keys)):
             _curves(axes, data, keys, name)
         else:
@@ -261,7 +267,7 @@ def _bars(axes: "Axes", data: "xr.Dataset", name: str) -> None:
     if np.isnan(one["first_order"].values).all():
         axes.text(0.5, 0.5, "no scatter", transform=axes.transAxes, ha="center", va="center")
         axes.set_xlim(0.0, 1.0)
-    axes.set_yticks(positions, [_words(key) for key in keys], fontsize=8)
+    axes.set_yticks(positions, [fill(_words(key), WIDEST_LABEL) for key in keys], fontsize=8)
     axes.set_ylim(len(keys) - 0.5, -0.5)
     axes.set_xlabel("fraction of the variance [1]")
     _frame(axes)
@@ -295,7 +301,9 @@ def _logarithmic(values: Array) -> bool:
 def _words(key: str) -> str:
     """Return the label of a key: its body if the description omits it, meaning and symbol."""
     table = key.rpartition(".")[0]
-    text = labels(key)["long_name"].split(",")[0]
+    text = re.split("[,;]", labels(key)["long_name"])[0]
+    if table.startswith(f"{OWN_MATERIALS}."):
+        return text.replace("the material", _label(table.removeprefix(f"{OWN_MATERIALS}.")))
     if table in ("plate", "sphere") and table not in text:
         text = f"{table}: {text}"
     symbol = KEY_SYMBOLS.get(key, "")

@@ -153,6 +153,24 @@ def test_animation_for_a_browser_needs_no_network(result: Any, monkeypatch: Any)
     assert all(f"{text}</button>" in page for text in animation.BUTTONS.values())
 
 
+def test_titles_of_an_animation_do_not_overlap(result: Any, monkeypatch: Any) -> None:
+    """An earlier layout had no room for the time, which was written across the other title."""
+    from matplotlib.animation import FuncAnimation
+
+    from derivation.scene.output import animation
+
+    def page(movie: Any, **_: Any) -> str:
+        drawn = movie._fig
+        drawn.draw_without_rendering()
+        time, other = (text.get_window_extent() for text in (drawn.axes[0].title, *drawn.texts))
+        assert time.y1 < other.y0 or time.x1 < other.x0
+        assert other.y1 < drawn.bbox.y1
+        return ""
+
+    monkeypatch.setattr(FuncAnimation, "to_jshtml", page)
+    animation.render(result, ".html")
+
+
 def test_profiles_are_zero_at_the_edge_and_correct_at_the_axis(result: Any) -> None:
     times = np.linspace(0.1, 0.9, 5) * result.total_time
     profiles = result.dynamics.profiles(times, np.array([0.0, result.model.b]))

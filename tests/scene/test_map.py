@@ -152,3 +152,16 @@ def test_map_lists_effects_that_matter_everywhere_or_nowhere() -> None:
     legend_texts = [text.get_text() for text in legend.get_texts()]
     assert any(text.startswith("everywhere: ") for text in legend_texts), legend_texts
     assert not any(text.startswith("nowhere: ") for text in legend_texts), legend_texts
+
+
+def test_legend_of_a_map_has_one_line_for_effects_that_matter_everywhere(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Those that are unknown at other points had another line."""
+    result, unknown = simulate(shared_scenes.scene()), np.array([[np.nan, 2.0], [2.0, 2.0]])
+    ratios = {"edge": unknown, "bending": np.full((2, 2), 2.0)}
+    axis = np.array([0.01, 1.0])
+    monkeypatch.setattr(map_, "grid", lambda *_: map_.Grid(axis, axis, ratios))
+    (legend,) = map_.figure(result, 1e-3).legends
+    texts = [text.get_text() for text in legend.get_texts()]
+    assert [text for text in texts if "everywhere" in text] == ["everywhere: edge, bending"]

@@ -101,6 +101,7 @@ BAD: list[tuple[Tables, str]] = [
     (tables({"material": "stel"}, STEEL), "sphere.material|steel?"),
     (tables({"material": "my-ise"}, STEEL, materials=OWN), "my ice?"),
     (tables({"material": "tennis ball"}, STEEL), "sphere.material|hollow"),
+    (tables({"material": "Table tennis"}, STEEL), "sphere.material|hollow"),
     (tables({"material": "hollow steel ball"}, STEEL), "sphere.material|hollow"),
     (tables(STEEL, {"material": 3}), "plate.material: |3"),
     (tables({"material": "paper"}, STEEL), "sphere.material|mass = 72"),
@@ -117,6 +118,10 @@ BAD: list[tuple[Tables, str]] = [
     (
         tables(STEEL, STEEL, materials={"a": RUBBER | {"densty": 1.0}}),
         "materials.a.densty: |density?",
+    ),
+    (
+        tables(STEEL, STEEL, materials={"a.b": RUBBER | {"E": 1e9, "rho": 900.0}}),
+        "[Pa] is materials.a.b.youngs_modulus; rename|.rho: |is materials.a.b.density; rename",
     ),
     (
         tables(STEEL, STEEL, materials={"a": RUBBER | {"poissons_ratio": 0.5}}),

@@ -111,6 +111,22 @@ def test_invalid_sweeps_give_one_message(text: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("key", "other"),
+    [("plate.E", "plate.youngs_modulus"), ("sphere.diameter", "sphere.radius"),
+     ("impact.height", "impact.speed"), ("materials.my ice.rho", "materials.my ice.density")],
+)  # fmt: skip
+def test_another_name_of_a_key_is_explained_as_in_a_scene(key: str, other: str) -> None:
+    """An earlier message asked whether plate.E meant plate.edge."""
+    with pytest.raises(SceneError, match=rf"^sweep: {key}: unknown key: .*{other}"):
+        sweep.parse(f"{key}=1:2:3")
+
+
+def test_too_many_values_of_a_key_name_a_way_to_more_points() -> None:
+    with pytest.raises(SceneError, match=r"100000 values of a key.*several keys, or --sample N$"):
+        sweep.parse("impact.speed=1:2:100000000")
+
+
+@pytest.mark.parametrize(
     ("text", "message"),
     [
         ("plate.material=steel,stel", "did you mean steel?"),

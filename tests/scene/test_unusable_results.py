@@ -127,6 +127,23 @@ def test_a_contact_as_wide_as_the_sphere_is_named_with_a_speed(scene: Any) -> No
     assert not slower.unusable_note
 
 
+def test_both_causes_of_unusable_results_are_named_with_their_speeds() -> None:
+    """An earlier note named stretching only, with a thickness that leaves most results unusable."""
+    stone: dict[str, dict[str, Any]] = {
+        "sphere": {"radius": 0.035, "material": "ice", "yield_stress": 10e6},
+        "plate": {"radius": 0.6, "thickness": 0.04, "material": "aluminium", "edge": "clamped"},
+        "impact": {"speed": 100.0},
+    }
+    note = simulate(read(stone)).unusable_note
+    both = re.search(r"stretches.* m/s or ([\d.]+) m\..*half-space.*: ([\d.]+) mm/s", note)
+    assert both
+    thickness, speed = float(both[1]), 1e-3 * float(both[2])
+    assert (
+        "half-space" in simulate(read(changed(stone, "plate", thickness=thickness))).unusable_note
+    )
+    assert simulate(read(changed(stone, "impact", speed=speed))).model_error < 1.6 * USABLE
+
+
 @pytest.mark.parametrize("scene", [HAIL, PANE, SOFT, BALL])
 def test_causes_of_a_model_error_are_its_parts(scene: Any) -> None:
     result = simulate(read(scene))

@@ -13,6 +13,7 @@ from derivation.cli import main
 from derivation.scene.result import UNITS
 from derivation.scene.rows.rows import Rows
 from derivation.sweep import run, sensitivity
+from derivation.sweep.plots import figure
 
 SPREAD = {"distribution": "uniform", "low": 1.0, "high": 2.0}
 KEYS = ("impact.speed", "sphere.radius", "plate.radius")
@@ -103,6 +104,23 @@ def test_command_prints_and_plots_indices(
     assert picture.read_bytes().startswith(b"\x89PNG")
     data = json.loads(path.read_text())["sensitivities"]
     assert len(data) == len(KEYS) * len(UNITS)
+
+
+def test_keys_with_long_descriptions_leave_room_for_the_bars(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """An earlier version drew bars of a few pixels beside the words of the loss factor."""
+    monkeypatch.setattr(run, "solve", rows)
+    monkeypatch.setattr(sensitivity, "RESAMPLES", 10)
+    data = pc.sweep(scene(), dict.fromkeys(KEYS, SPREAD), sample=8, sensitivity=True)
+    keys = ["plate.loss_factor", "materials.ice.density", "materials.my $tile$.density"]
+    made = figure(data.assign_coords(key=keys), keys, list(UNITS))
+    made.draw_without_rendering()
+    for axes in made.axes:
+        assert axes.get_position().width * made.get_figwidth() > 2.5  # inches
+    names = [" ".join(text.get_text().split()) for text in made.axes[0].get_yticklabels()]
+    assert names[0] == "loss factor of the plate vibration"
+    assert names[1:] == ["density of ice", r"density of my \$tile\$"]
 
 
 def test_points_without_a_result_have_no_sensitivities(

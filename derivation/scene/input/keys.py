@@ -12,7 +12,7 @@ from derivation.scene.errors import SceneError
 from derivation.scene.input.bodies import Plate, Sphere
 from derivation.scene.input.body_materials import constants_beside, own_materials
 from derivation.scene.input.materials import find
-from derivation.scene.input.messages import OWN_MATERIALS, shown
+from derivation.scene.input.messages import OWN_MATERIALS, instead, shown
 from derivation.scene.input.old_names import new_key
 from derivation.scene.input.table import Table, is_number
 from derivation.scene.scene import TABLES, Material, Scene, read
@@ -44,6 +44,9 @@ def varied_key(place: str) -> str:
     table, _, key = place.rpartition(".")
     known = table_of(table)
     field = known.model_fields.get(key) if known else None
+    other = instead((table, key), {table: known.model_fields}) if known else ""
+    if other:
+        raise SceneError(f"sweep: {place}: unknown key: {other}")
     if field is None or not (_takes_numbers(field) or _takes_names(key, field)):
         suggestion = did_you_mean(place, _varied_keys())
         raise SceneError(

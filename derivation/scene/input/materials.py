@@ -140,7 +140,7 @@ def find(name: str, materials: Mapping[str, KnownMaterial] | None = None) -> Kno
 
 def unknown(name: str, materials: Iterable[str] = ()) -> str:
     """Return the message for an unknown material, with the nearest name; hollow balls differ."""
-    if plain(name) in HOLLOW or "hollow" in plain(name):
+    if {plain(name), f"{plain(name)}ball"} & HOLLOW or "hollow" in plain(name):
         return (
             f"expected the material of a solid sphere, got {shown(name)}, which is hollow; the "
             "model does not include the bending of a shell"

@@ -1,6 +1,7 @@
 """Error messages about a scene: what was expected, what was given, what to do."""
 
 import json
+import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from numbers import Real
@@ -68,9 +69,14 @@ _MEASURED = (
 )
 _FOUNDATION = "the plate is supported at its edge only, without a foundation; remove the key"
 _DAMPING = "damping is given by the loss factor, twice the damping ratio of each mode; write "
-_SYMBOL = "{} is {}; rename the key"
-_MODULUS = "E", "young", "youngs", "modulus", "elastic_modulus", "young_modulus", "stiffness"
-_RATIO = "nu", "poisson", "poissons", "poisson_ratio"
+_SYMBOLS = {
+    "youngs_modulus": (
+        "E", "young", "youngs", "modulus", "elastic_modulus", "young_modulus", "stiffness",
+    ),
+    "poissons_ratio": ("nu", "poisson", "poissons", "poisson_ratio"),
+    "density": ("rho",),
+}  # fmt: skip
+"""Other names that users may expect of keys of a body or material."""
 _EXPECTED_KEYS = {
     ("sphere", _SOLID): (
         "thickness", "wall_thickness", "shell_thickness", "wall", "hollow", "inner_radius",
@@ -92,17 +98,11 @@ _EXPECTED_KEYS = {
         "height", "drop_height", "fall_height", "h", "energy", "drop",
     ),
     ("impact", "the impact speed [m/s] is impact.speed; rename the key"): ("velocity", "v", "v0"),
-    ("sphere", _SYMBOL.format("Young's modulus [Pa]", "sphere.youngs_modulus")): _MODULUS,
-    ("plate", _SYMBOL.format("Young's modulus [Pa]", "plate.youngs_modulus")): _MODULUS,
-    ("sphere", _SYMBOL.format("Poisson's ratio", "sphere.poissons_ratio")): _RATIO,
-    ("plate", _SYMBOL.format("Poisson's ratio", "plate.poissons_ratio")): _RATIO,
-    ("sphere", _SYMBOL.format("the density [kg/m^3]", "sphere.density")): ("rho",),
-    ("plate", _SYMBOL.format("the density [kg/m^3]", "plate.density")): ("rho",),
     ("accuracy", "the relative tolerance is accuracy.rtol; rename the key"): (
         "tolerance", "tol", "accuracy", "error", "relative_tolerance", "eps",
     ),
 }  # fmt: skip
-UNKNOWN = {
+UNKNOWN: dict[Any, str] = {
     (table, key): reason for (table, reason), keys in _EXPECTED_KEYS.items() for key in keys
 } | {(table, "restitution"): _MEASURED for table in ("sphere", "plate", "impact")}
 """What to do instead of each key that users may expect but that does not exist."""
@@ -114,6 +114,8 @@ ELSEWHERE = {
     "[inertia]: then the edge has no effect",
 }
 """Remedies for values beyond the range of a key."""
+ENDLESS = ' and, for an infinite plate, extent = "infinite" in [inertia]'
+"""Remedy for an infinite radius."""
 
 
 def tolerance_remedy(value: Any) -> str:
@@ -201,6 +203,8 @@ def explain(kind: str, location: tuple[int | str, ...], value: Any, fields: Fiel
     text = field.examples and not isinstance(field.examples[0], (int, float))
     if isinstance(value, str) and not text:
         return f"{name}: {expected}, got {shown(value)}; {_unquoted(key, value, field)}{elsewhere}"
+    if name == "plate.radius" and value == math.inf:
+        elsewhere = ENDLESS
     return f"{name}: {expected}, got {shown(value)}; write for example {example}{elsewhere}"
 
 
@@ -257,6 +261,15 @@ def choice_problem(
     return f"[{table}]: expected either {wanted}, got {got}; {remedy}"
 
 
+def instead(location: tuple[int | str, ...], fields: Fields) -> str:
+    """Return what to write instead of a key that users may expect; empty for any other key."""
+    for usual, others in _SYMBOLS.items():
+        field = fields.get(str(location[0]), {}).get(usual)
+        if field and location[-1] in others:
+            return f"{field.description} is {_name(location[:-1])}.{usual}; rename the key"
+    return UNKNOWN.get(location, "")
+
+
 def _unknown(location: tuple[int | str, ...], fields: Fields) -> str:
     name = _name(location)
     key = str(location[-1])
@@ -265,8 +278,9 @@ def _unknown(location: tuple[int | str, ...], fields: Fields) -> str:
             "vary: expected distributions only in a scene file, for `platecontact sweep SCENE.toml "
             "--sample N`; give them to `sweep` in Python"
         )
-    if location in UNKNOWN:
-        return f"{name}: unknown key: {UNKNOWN[location]}"
+    other = instead(location, fields)
+    if other:
+        return f"{name}: unknown key: {other}"
     homes = [f"[{table}]" for table, keys in fields.items() if key in keys]
     if len(location) == 1:
         known = [*(table for table in fields if "." not in table), OWN_MATERIALS]

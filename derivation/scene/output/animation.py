@@ -76,6 +76,7 @@ def render(result: Result, suffix: str) -> bytes:
         axes.set_title(f"$t$ = {t[k]:.3g} {unit}", fontsize=10)
         return [plate, sphere]
 
+    draw(0)  # with its title, which needs room
     made.draw_without_rendering()
     made.set_layout_engine(None)  # the layout of the first frame remains
     movie = FuncAnimation(made, draw, frames=FRAMES, interval=1000.0 / PER_SECOND)  # type: ignore[arg-type]

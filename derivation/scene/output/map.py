@@ -147,15 +147,17 @@ def figure(result: Result, rtol: float) -> "Figure":
     axes.contourf(
         map_grid.thicknesses, map_grid.radii, np.where(known, 0.0, np.nan), colors=["white"]
     )
-    colours = iter(COLOURS)
+    colours, constant = iter(COLOURS), dict[str, list[str]]()
     for names, ratio in lines(map_grid).items():
         label = ", ".join(name + CHOICES[wanted[name]] for name in names)
         finite = ratio[np.isfinite(ratio)]
         if not finite.size or finite.min() > 1.0 or finite.max() < 1.0:
             where = "everywhere" if finite.size and finite.min() > 1.0 else "nowhere"
-            axes.plot([], [], linestyle="none", label=f"{where}: {label}")
+            constant.setdefault(where, []).append(label)
             continue
         _line(axes, map_grid, ratio, next(colours), label)
+    for where, labels in constant.items():
+        axes.plot([], [], linestyle="none", label=f"{where}: {', '.join(labels)}")
     axes.plot(
         *point, marker="*", markersize=14, color="black", linestyle="none", label="this scene"
     )

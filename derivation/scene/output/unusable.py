@@ -37,13 +37,13 @@ def unusable(result: "Result") -> tuple[str, ...]:
 def in_words(result: "Result") -> str:
     """Return which results are not usable, why, and how to make them usable.
 
-    Empty if all are usable. The cause is the largest of stretching of the plate, the finite size of
-    the sphere and different retardation times of both, if it is large enough alone.
+    Empty if all are usable. The causes are different retardation times of both bodies or, without
+    them, stretching of the plate and the finite size of the sphere, if they are large enough alone.
     """
     names = unusable(result)
     if not names:
         return ""
-    why = _by_retardation(result) or _by_stretching(result) or _by_sphere(result)
+    why = _by_retardation(result) or f"{_by_stretching(result)} {_by_sphere(result)}".strip()
     listed = ", ".join(name.replace("_", " ") for name in names)
     return f"NOT USABLE: {listed}. {why}" if why else ""
 

@@ -155,7 +155,7 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     pressed = accuracy_on(OUTPUTS, selected, motion, accuracy)
     loaded = accuracy_on(("max_force",), selected, motion, accuracy)
     pressure_error = pressed.pressure_bound + errors["max_contact_radius"]
-    stress_error = loaded.bound + stress.error
+    stress_error = loaded.bound + stress.error + measured
     warnings = (
         *on_units,
         *hollow_warnings(model),

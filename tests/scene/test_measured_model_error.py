@@ -27,7 +27,7 @@ def test_error_of_the_constant_includes_the_model_error_of_the_measurement() -> 
         elastic, by_a, depth_a = law(a)
         return elastic + 0.5 * time * by_a * v / depth_a
 
-    def left(_: float, y: Any) -> float:
+    def left(_: float, y: Any) -> Any:
         return force(*y) + (y[1] > 0.0)
 
     left.terminal = True  # type: ignore[attr-defined]

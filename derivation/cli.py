@@ -23,7 +23,7 @@ from derivation.commands import materials as material_commands
 from derivation.commands import paper as paper_commands
 from derivation.commands import scenes as scene_commands
 from derivation.commands import sweep as sweep_command
-from derivation.commands.command import Command
+from derivation.commands.command import Command, SignedCommand
 from derivation.commands.groups import GroupedHelp
 from derivation.commands.options import PaperFolder, chosen_paper
 from derivation.engine.console import (
@@ -181,7 +181,7 @@ def _dynamic(out: Path | None, update: bool, others: bool) -> None:
     _written(path)
 
 
-command()(formula_commands.rewrite)
+app.command(cls=SignedCommand)(formula_commands.rewrite)
 command()(paper_commands.report)
 command()(paper_commands.build)
 command()(formula_commands.diagnose)
@@ -224,7 +224,7 @@ command()(scene_commands.simulate)
 command()(sweep_command.sweep)
 command()(scene_commands.explain)
 command("map")(scene_commands.map_)
-command()(scene_commands.indent)
+app.command(cls=SignedCommand)(scene_commands.indent)
 command()(material_commands.materials)
 command()(example_commands.examples)
 command()(scene_commands.schema)

@@ -6,6 +6,7 @@ from typing import Any
 
 from typer import BadParameter
 from typer.core import TyperCommand, TyperGroup, TyperOption
+from typer.exceptions import TyperException
 
 from derivation.engine.console import NOTES
 
@@ -47,6 +48,17 @@ class Command(TyperCommand):
             raise ValueError(f"--{error}") from None
 
 
+class SignedCommand(Command):
+    """A command whose arguments may begin with a minus sign, such as -5 or "-x + 1"."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Move arguments that begin with a minus sign behind --, after which nothing is an option.
+
+        Options with a single minus sign that do not exist are thus read as arguments.
+        """
+        return super().parse_args(ctx, with_signs_last(self, ctx, args))
+
+
 class Group(TyperGroup):
     """A command with subcommands; its own options apply only without a subcommand."""
 
@@ -65,6 +77,23 @@ class Group(TyperGroup):
                 f"options of {rest[0]} after it"
             )
         return super().parse_args(ctx, [*own, *rest])
+
+
+def with_signs_last(command: Any, ctx: Any, args: list[str]) -> list[str]:
+    """Return the arguments with those that begin with a minus sign after all others, behind --."""
+    signed: list[str] = []
+    while True:
+        plain = list(takewhile(lambda arg: arg != "--", args))
+        try:
+            command.make_parser(ctx).parse_args(args=list(plain))
+        except TyperException as error:
+            name = getattr(error, "option_name", "--")
+            found = [i for i, arg in enumerate(plain) if arg.startswith(name)]
+            if name.startswith("--") or not found:
+                return args
+            signed.append(args.pop(found[0]))
+        else:
+            return [*plain, "--", *signed, *args[len(plain) + 1 :]] if signed else args
 
 
 def with_present_names(command: Any, ctx: Any, args: list[str]) -> list[str]:

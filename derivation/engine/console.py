@@ -7,6 +7,7 @@ import time
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from datetime import timedelta
 from pathlib import Path
 from typing import Annotated, Any, TextIO
 
@@ -90,6 +91,8 @@ INTERRUPTED_STATUS = 130
 """Exit status of typer after Ctrl-C."""
 UNREAD_STATUS = 141
 """Exit status of a program that writes to a closed pipe: 128 + SIGPIPE."""
+LOG_INTERVAL = 60.0
+"""Time between lines about progress where the output is no terminal [s]."""
 MOST_WARNINGS = 20
 """Largest number of warnings shown."""
 
@@ -122,6 +125,8 @@ def progress_bar(name: str, *, alike: bool = False) -> Iterator[Progress]:
 def transient_bar(name: str, *, alike: bool = False) -> Iterator[Progress]:
     """Show a bar and a clock on a terminal; yield the function that reports a part of the work.
 
+    Where the output is no terminal, such as a log file, a line is written about every minute.
+
     Parameters
     ----------
     name
@@ -140,10 +145,17 @@ def transient_bar(name: str, *, alike: bool = False) -> Iterator[Progress]:
         part,
     )
     with Display(*columns, console=NOTES, transient=True, disable=not NOTES.is_terminal) as bar:
-        task = bar.add_task("", total=None)
-        yield lambda part, number, total: bar.update(
-            task, description=part, completed=number - 1, total=total
-        )
+        task, said = bar.add_task("", total=None), time.monotonic()
+
+        def report(part: str, number: int, total: int) -> None:
+            nonlocal said
+            bar.update(task, description=part, completed=number - 1, total=total)
+            if not NOTES.is_terminal and time.monotonic() - said >= LOG_INTERVAL:
+                said, left = time.monotonic(), bar.tasks[0].time_remaining if alike else None
+                estimate = f", {timedelta(seconds=round(left))} left" if left else ""
+                NOTES.say(f"{name}: {number - 1} of {total}{estimate}")
+
+        yield report
 
 
 @contextmanager

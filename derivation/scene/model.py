@@ -12,7 +12,11 @@ from derivation.scene.contact_law.support_series import Supports, supports_of
 from derivation.scene.errors import SceneError
 from derivation.scene.input.bodies import Sphere
 from derivation.scene.input.body_materials import Body, body_of, first_given, own_materials
-from derivation.scene.input.materials import plane_strain_modulus
+from derivation.scene.input.materials import (
+    engineering_constants,
+    plane_strain_modulus,
+    poissons_ratio,
+)
 from derivation.scene.input.units import unusual_density
 from derivation.scene.quasi_static.simple_laws import plates_of
 from derivation.scene.scene import Scene
@@ -175,7 +179,7 @@ class Model:
     @property
     def poissons_ratio(self) -> float:
         """Poisson's ratio of the plate [1]."""
-        return self.lam / (2.0 * (self.lam + self.mu))
+        return poissons_ratio(self.lam, self.mu)
 
     @property
     def modulus(self) -> float:
@@ -346,7 +350,7 @@ def _lightest(sphere: Body, by_density: bool) -> Any:
     """
     if not by_density:
         return sphere.lightest
-    modulus = sphere.mu * (3.0 * sphere.lam + 2.0 * sphere.mu) / (sphere.lam + sphere.mu)
+    modulus, _ = engineering_constants(sphere.lam, sphere.mu)
     least = np.where(unusual_density(sphere.density, modulus), 0.0, sphere.lightest)
     return float(least) if np.ndim(least) == 0 else least
 
@@ -360,4 +364,4 @@ def _poissons_ratio(body: Body) -> float:
     """Return Poisson's ratio of a body [1]; 0 for a rigid body."""
     if not np.all(np.isfinite(body.mu)):
         return 0.0
-    return body.lam / (2.0 * (body.lam + body.mu))
+    return poissons_ratio(body.lam, body.mu)

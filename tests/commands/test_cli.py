@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 from interrupted import interrupted
+from shared_scenes import EXAMPLES
 
 from derivation import diagnose, formula
 from derivation.cli import main
@@ -33,6 +34,31 @@ def test_diagnose_exits_with_1_for_a_different_formula(capsys: pytest.CaptureFix
     different = json.loads(capsys.readouterr().out)
     assert {"verdict", "repair", "ratio", "given", "derived"} <= different.keys()
     assert different["verdict"] == "different"
+
+
+def test_a_formula_may_begin_with_a_minus_sign(capsys: pytest.CaptureFixture[str]) -> None:
+    """It is the same formula wherever it stands, and unknown options are still named."""
+    results = []
+    for before, text, after in (
+        ((), "-x + sqrt(x**2 + 1)", ("--json", "-")),
+        (("--json", "-", "--where", "x < 9"), "-x + sqrt(x**2 + 1)", ()),
+        ((), "sqrt(x**2 + 1) - x", ("--json", "-")),
+    ):
+        assert main(["rewrite", *before, text, *after]) == 0
+        results.append(json.loads(capsys.readouterr().out)["source"].splitlines()[-1])
+    assert len(set(results)) == 1
+    assert main(["rewrite", "x", "--formul"]) == 2
+    assert "No such option: --formul" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("values", [["-5"], ["5", "-5"], ["-5", "5"], ["-.5"]])
+def test_negative_numbers_are_rejected_as_numbers(
+    values: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = str(EXAMPLES / "glass_pane.toml")
+    assert main(["indent", scene, "--force", *values]) == 2
+    [negative] = [float(value) for value in values if value.startswith("-")]
+    assert f"expected positive numbers [N], got {negative:g}; " in capsys.readouterr().err
 
 
 def test_diagnose_reads_latex(capsys: pytest.CaptureFixture[str]) -> None:

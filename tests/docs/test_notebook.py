@@ -87,7 +87,7 @@ def test_output_of_static_contacts_and_of_generated_code(executed: list[Any]) ->
     contacts = _shown(executed, "indent(scene, force=[10, 100, 1000])")["text/html"]
     assert contacts.count("<tr>") == 4
     assert "<td>100</td>" in contacts
-    code = _shown(executed, 'Code(scene_code(at_rest), language="python")')
+    code = _shown(executed, 'Code(scene_code(quasi_static), language="python")')
     assert "def impact(" in code["text/plain"] or "impact" in code["text/html"]
 
 

@@ -3,6 +3,7 @@
 import io
 import json
 import os
+import re
 import shlex
 import subprocess
 import sys
@@ -127,6 +128,25 @@ def test_time_that_is_left_is_shown_if_parts_are_alike(monkeypatch: pytest.Monke
                 progress("points", number, 100)
                 time.sleep(0.15)
         assert (" left" in shown.getvalue()) == alike
+
+
+def test_progress_is_written_in_lines_where_there_is_no_terminal(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """In the log of a cluster a study of hours would otherwise be silent."""
+    for interval, expected in (0.0, 3), (3600.0, 0):
+        shown = io.StringIO()
+        monkeypatch.setattr(console, "NOTES", Screen(file=shown, width=60))
+        monkeypatch.setattr(console, "LOG_INTERVAL", interval)
+        with transient_bar("sweep", alike=True) as progress:
+            for number in 1, 31, 61:
+                progress("points", number, 100)
+                time.sleep(0.05)
+        lines = shown.getvalue().splitlines()
+        assert len(lines) == expected
+        if lines:
+            assert lines[0] == "sweep: 0 of 100"
+            assert re.fullmatch(r"sweep: 60 of 100, 0:00:\d\d left", lines[-1])
 
 
 def test_list_of_warnings_is_shortened(capsys: Captured) -> None:

@@ -1,16 +1,20 @@
 """Results with too large a model error are listed first, with a change that makes them usable."""
 
+import math
 import re
 from typing import Any
 
 import pytest
 
 from derivation.scene import read, simulate
+from derivation.scene.dynamic import waves
 from derivation.scene.dynamic.stretching_error import USABLE
 from derivation.scene.dynamic.unlike_bodies import unlike_bodies_errors
 from derivation.scene.output import answer
 from derivation.scene.output.error_causes import causes
+from derivation.scene.quantity import NO_DIGITS
 from derivation.scene.result import Result
+from derivation.scene.scene import OUTPUTS
 from derivation.scene.selection.method_selection import growth_of
 
 PREFIX = {"": 1.0, "m": 1e-3, "µ": 1e-6}
@@ -65,6 +69,36 @@ def test_the_summary_begins_with_results_that_are_not_usable() -> None:
     assert result.model_errors["max_force"] < 0.1
     usable = changed(HAIL, "impact", speed=0.05)
     assert not str(simulate(read(usable))).startswith("NOT")
+
+
+def test_few_modes_are_simulated_if_no_result_is_usable(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Results with all modes differ by less than their error.
+
+    With a tolerance, or if some results are usable, the number of modes is not reduced.
+    """
+    bonnet = changed(HAIL, "plate", thickness=5e-4, loss_factor=0.0, radius=0.1, edge="clamped")
+    fast, slow = (changed(bonnet, "impact", speed=speed) for speed in (10.0, 2.0))
+    useless = read(fast)
+    few = simulate(useless)
+    assert few.dynamics is not None
+    assert math.isinf(few.accuracy.bound)
+    assert all(error >= NO_DIGITS for error in few.model_errors.values())
+    assert few.unusable_note.endswith("As no result is usable, few plate modes are simulated.")
+    monkeypatch.setattr(waves, "not_usable", lambda *_: None)
+    waves.impact.cache_clear()
+    full = simulate(useless)
+    assert full.dynamics is not None
+    assert full.dynamics.inertia.modes > 4 * few.dynamics.inertia.modes
+    assert math.isfinite(full.accuracy.bound)
+    for name in OUTPUTS:
+        change = abs(getattr(few, name) / getattr(full, name) - 1.0)
+        assert change < min(1.0, 0.2 * few.model_errors[name])
+        assert few.model_errors[name] == pytest.approx(full.model_errors[name], rel=0.5)
+        assert full.model_errors[name] >= NO_DIGITS
+    monkeypatch.undo()
+    waves.impact.cache_clear()
+    for scene, rtol in (fast, 0.05), (slow, None):
+        assert math.isfinite(simulate(read(scene), rtol=rtol).accuracy.bound)
 
 
 SOFT: dict[str, dict[str, Any]] = {

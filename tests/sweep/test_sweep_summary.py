@@ -117,7 +117,7 @@ def test_bound_is_that_of_the_outputs_of_the_scene() -> None:
 
 
 @pytest.mark.parametrize("terminal", [True, False])
-def test_a_study_in_python_shows_its_progress_on_a_terminal_only(
+def test_a_short_study_in_python_shows_its_progress_on_a_terminal_only(
     terminal: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shown = io.StringIO()

@@ -38,7 +38,10 @@ def known_formula(name: str, formulas: Mapping[str, Record]) -> Record:
         )
     if name not in names:
         hint = did_you_mean(name, names, most=3)
-        raise FormulaError(f"no formula {name!r:.60}: {hint}expected one of {one_of(names)}")
+        raise FormulaError(
+            f"no formula {name!r:.60}: {hint}expected one of {one_of(names)}; "
+            "`platecontact derive` lists all formulas"
+        )
     expression = formulas[name].expression
     if expression.has(sp.Integral) and not has_value(expression):
         raise FormulaError(

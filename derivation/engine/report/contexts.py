@@ -56,17 +56,18 @@ def chain_context(steps: Sequence[tuple[str, Sequence[Record]]]) -> dict[str, An
         rows.append(f"{place} & {escape(name)} & {on} & {len(records)} & {printed}")
     decided = Counter(f.proof.method for _, records in steps for f in records)
     return {
-        "formulas": sum(decided.values()),
-        "proved": proved(decided),
+        "verified": verified(decided),
         "rows": rows,
     }
 
 
-def proved(methods: Mapping[str, int]) -> str:
-    """Return how many formulas were proved by which method, as the end of a sentence."""
+def verified(methods: Mapping[str, int]) -> str:
+    """Return how many formulas were verified by which method, as a sentence without full stop."""
+    count = sum(methods.values())
     if len(methods) == 1:
-        return f"all were proved {next(iter(methods))}"
-    return ", ".join(f"{count} were proved {how}" for how, count in methods.items())
+        return f"All {count} formulas were verified {next(iter(methods))}"
+    parts = ", ".join(f"{some} were verified {how}" for how, some in methods.items())
+    return f"Of the {count} formulas, {parts}"
 
 
 def _equation_order(text: str) -> tuple[int, str]:

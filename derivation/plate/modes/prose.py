@@ -2,8 +2,8 @@
 
 ABOUT = {
     "equilibrium": r"One mode of the plate is $u = g(z) \phi J_1(\phi r)$, "
-    r"$w = f(z) J_0(\phi r)$. Put into Hooke's law and the balance of forces it "
-    "leaves two ordinary differential equations in $z$.",
+    r"$w = f(z) J_0(\phi r)$. With Hooke's law, the balance of forces gives two "
+    "ordinary differential equations in $z$.",
     "mode shapes": r"For solutions proportional to $\exp(s z)$ the two equations become a 2x2 "
     r"matrix; the roots of its determinant and their multiplicities give the solution space.",
     "stresses": r"Hooke's law gives the stresses of the mode. The in-plane normal stresses have "

@@ -159,7 +159,8 @@ def tool_rows(tools: Sequence[Data]) -> Iterator[str]:
     for tool in tools:
         name = escape(f"{tool['name']} {tool['version']}".strip())
         if tool["missing"]:
-            yield rf"{name} & \multicolumn{{5}}{{l}}{{{escape(tool['missing'])}}}"
+            reason = tool["missing"].partition(":")[0]
+            yield rf"{name} & \multicolumn{{5}}{{l}}{{{escape(reason)}}}"
             continue
         setting = re.sub(r"(?<=\d) \$x\$ (?=\d)", r" $\\times$ ", prose(tool["setting"]))
         cells = [prose(tool["problem"]), setting, power(tool["error"])]

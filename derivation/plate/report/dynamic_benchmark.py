@@ -67,9 +67,10 @@ def dynamic_benchmark_context(data: Mapping[str, Any]) -> dict[str, Any]:
     plate, sphere = data["scene"]["plate"], data["scene"]["sphere"]
     return {
         "scene": (
-            f"A {sphere['material']} sphere of {2e3 * sphere['radius']:g}\\,mm strikes a plate of "
-            f"{plate['material']}, {1e3 * plate['thickness']:g}\\,mm thick and "
-            f"{2 * plate['radius']:g}\\,m wide, at {data['scene']['impact']['speed']:g}\\,m/s"
+            f"A {sphere['material']} sphere of {2e3 * sphere['radius']:g}\\,mm diameter strikes "
+            f"a plate of {plate['material']}, {1e3 * plate['thickness']:g}\\,mm thick and "
+            f"{2 * plate['radius']:g}\\,m in diameter, "
+            f"at {data['scene']['impact']['speed']:g}\\,m/s"
         ),
         "modes": shared["modes"],
         "finest": rounded(data["reference"]["tolerance"]),

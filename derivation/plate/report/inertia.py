@@ -8,19 +8,21 @@ from derivation.engine.report.latex import escape
 REASONS = {
     "rtol": "the tolerance cannot be met",
     "plate.edge": "the model error of the edge is too large",
+    "reference: incomplete": "the reference simulation is incomplete",
 }
 """Reasons for which scenes are rejected, by the key in the message."""
 
 
 def inertia_context(data: Mapping[str, Any]) -> dict[str, Any]:
     """Return the values of the template from the measurement."""
-    rejected = data["rejected"]
+    rejected, skipped = data["rejected"], data["skipped"]
     return {
         "drawn": data["drawn"],
         "compared": len(data["rows"]),
         "rejected": sum(rejected.values()),
         "reasons": ", ".join(f"{n}: {_reason(key)}" for key, n in rejected.items()),
-        "skipped": sum(data["skipped"].values()),
+        "skipped": sum(skipped.values()),
+        "skipped_reasons": ", ".join(f"{n}: {escape(reason)}" for reason, n in skipped.items()),
         "contacts": _contacts(max(row["contacts"] for row in data["rows"])),
         "rows": [_row(side) for side in data["sides"]],
     }
@@ -28,10 +30,10 @@ def inertia_context(data: Mapping[str, Any]) -> dict[str, Any]:
 
 def _reason(key: str) -> str:
     """Return why scenes were rejected; `key` begins the message of the program."""
+    if key in REASONS:
+        return REASONS[key]
     who, _, text = key.partition(": ")
-    if text:
-        return f"{who} with {text}"
-    return REASONS.get(key, rf"\texttt{{{escape(key)}}}")
+    return f"the {who} needs {text}" if text else rf"\texttt{{{escape(key)}}}"
 
 
 def _contacts(most: int) -> str:

@@ -23,6 +23,8 @@ UPDATE_COMMANDS = {
 }
 """Command that repeats a measurement."""
 DIGITS = 16
+COUNTS = ("cores", "digits", "modes")
+"""Values that are shown before their names."""
 
 
 def reproducibility_context(
@@ -48,7 +50,12 @@ def file_row(name: str, content: bytes) -> str:
 
 
 def _provenance_text(values: Mapping[str, Any]) -> Iterator[str]:
-    for key in ("provenance", "machine"):
-        for name, value in sorted(values.get(key, {}).items()):
-            short = str(value)[:DIGITS] if name == "generated" else str(value)
-            yield f"{escape(name)} {escape(short)}"
+    provenance, machine = values.get("provenance", {}), values.get("machine", {})
+    others = {name: value for name, value in machine.items() if name not in provenance}
+    for name, value in (*sorted(provenance.items()), *sorted(others.items())):
+        if name == "generated":
+            yield f"the package with the hash {escape(str(value)[:DIGITS])}"
+        elif name in COUNTS:
+            yield f"{escape(str(value))} {escape(name)}"
+        else:
+            yield f"{escape(name)} {escape(str(value))}"

@@ -1,14 +1,19 @@
-"""Assembles the code of a scene: docstring, constants, copies of plain modules."""
+"""Assembles the code of a scene: docstring, constants, copies of printed functions and modules."""
 
 import ast
+import inspect
 from collections.abc import Iterator, Mapping, Sequence
+from importlib import import_module
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 
 RUNTIME = Path(__file__).parent / "runtime"
-PACKAGE = "derivation.scene.code.runtime."
+PACKAGES = "derivation.scene.code.runtime.", "generated."
+"""Packages whose code is copied."""
+DOUBLE = "Double = NDArray[np.float64]"
+"""Definition of the type of arrays in printed functions."""
 WIDTH = 94
 """Width of the text in columns."""
 KEPT = {"LIMIT"}
@@ -28,16 +33,19 @@ def composed(
         Comment lines below the docstring.
     parts
         Modules of `runtime`, in order. They are copied line for line, without the imports from one
-        another.
+        another. The printed functions that they import are copied before them.
     numbers
         The constants of `runtime.data` for this scene; unused ones are omitted.
     """
-    trees = [ast.parse(_source(part)) for part in parts]
+    printed = list(dict.fromkeys(text for part in parts for text in _printed(part)))
+    trees = [ast.parse(text) for text in (*map(_source, parts), *printed)]
     used = {node.id for tree in trees for node in ast.walk(tree) if isinstance(node, ast.Name)}
     docstring = "\n".join(('"""' + head[0], *head[1:], '"""'))
     imports = "\n".join(sorted({text for part in parts for text in _imports(part)}))
+    if any("Double" in text for text in printed):
+        imports += f"\nfrom numpy.typing import NDArray\n\n{DOUBLE}"
     given = "\n".join(("# fmt: off", *_numbers(used, numbers), "# fmt: on"))
-    bodies = "\n\n\n".join(_body(part) for part in parts)
+    bodies = "\n\n\n".join((*printed, *map(_body, parts)))
     return f"{docstring}\n{remark}\n\n{imports}\n\n{given}\n\n\n{bodies}\n"
 
 
@@ -53,9 +61,20 @@ def _source(part: str) -> str:
 def _imports(part: str) -> Iterator[str]:
     """Yield the imports from other packages."""
     for node in ast.parse(_source(part)).body:
-        own = isinstance(node, ast.ImportFrom) and (node.module or "").startswith(PACKAGE)
+        own = isinstance(node, ast.ImportFrom) and (node.module or "").startswith(PACKAGES)
         if isinstance(node, ast.Import | ast.ImportFrom) and not own:
             yield ast.unparse(node)
+
+
+def _printed(part: str) -> Iterator[str]:
+    """Yield the source of the functions that a module of `runtime` imports from `generated`."""
+    for node in ast.parse(_source(part)).body:
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("generated."):
+            source = inspect.getsource(import_module(node.module or ""))
+            functions = [f for f in ast.parse(source).body if isinstance(f, ast.FunctionDef)]
+            for name in (alias.name for alias in node.names):
+                (found,) = (f for f in functions if f.name == name)
+                yield ast.get_source_segment(source, found) or ""
 
 
 def _body(part: str) -> str:

@@ -96,6 +96,18 @@ def half_period(m: float, modes: Modes) -> float:
     return math.pi * math.sqrt(m * float(np.sum(modes.compliance)))
 
 
+def largest_deflection(law: ContactLaw) -> float:
+    """Return the largest deflection [m] of the plate, roughly.
+
+    It is at most about that under a heavy sphere, and that of an infinite plate under an inelastic
+    impact.
+    """
+    model = law.model
+    _, swing = _heaviness(law)
+    infinite = scales.time_unit(model, law.modulus) * scales.zener_number(model)
+    return model.v0 * min(swing / math.pi, infinite)
+
+
 def check_long(law: ContactLaw, tolerance: float) -> None:
     """Reject a sphere that stays on the plate for more time steps than are allowed.
 

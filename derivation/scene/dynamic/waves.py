@@ -4,7 +4,8 @@ The modes up to some frequency are dynamic (see `modal`); the others respond qua
 impact is computed again with twice as many modes, and the second run is the result. The difference
 is the estimated error of the omitted modes. If the higher branches may change the results by more
 than the tolerance, all branches are dynamic. An infinite plate is one so large that no wave returns
-from its edge during the contacts.
+from its edge during the contacts. Without a tolerance, an impact whose results are all useless
+because the plate stretches is computed with few modes only.
 """
 
 import math
@@ -27,6 +28,7 @@ from derivation.scene.dynamic.mode_count import (
     finer,
     followed,
 )
+from derivation.scene.dynamic.not_usable import not_usable
 from derivation.scene.dynamic.reach import OutOfReachError, Reach
 from derivation.scene.dynamic.refinement import TOLERANCE_FRACTION, Refinement
 from derivation.scene.dynamic.results import dynamic_impact_of
@@ -81,6 +83,8 @@ def impact(
     coarse: ImpactHistory | None = None
     if law.model.inertia.infinite_plate and not law.model.inertia.modes:
         law, coarse = widened(law, budget)
+    if math.isinf(need) and (few := not_usable(law, outputs)):
+        return few
     if law.model.inertia.branches == "auto" and not law.viscous:
         law, rough = _branched(law, goal, reach, budget)
     run = Refinement(law, goal, reach, budget).impact(rough, coarse)

@@ -20,7 +20,7 @@ class SphereElasticity(Effect):
 
     def not_applicable_reason(self, model: Model) -> str:
         """Return a reason if the sphere is rigid."""
-        return "" if model.softness else "the sphere is rigid (no sphere.material)"
+        return "" if model.softness else "the sphere is rigid (it has no elastic constants)"
 
     def softness(self, model: Model) -> float:
         """Return E/(1 - nu^2) of the plate over that of the sphere."""

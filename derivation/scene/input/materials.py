@@ -68,7 +68,12 @@ def lame_constants(E: float, nu: float) -> tuple[float, float]:
 
 def engineering_constants(lam: Any, mu: Any) -> tuple[Any, Any]:
     """Return Young's modulus [Pa] and Poisson's ratio [1] from the Lame constants [Pa]."""
-    return mu * (3 * lam + 2 * mu) / (lam + mu), lam / (2 * (lam + mu))
+    return mu * (3 * lam + 2 * mu) / (lam + mu), poissons_ratio(lam, mu)
+
+
+def poissons_ratio(lam: float, mu: float) -> float:
+    """Return Poisson's ratio [1] from the Lame constants [Pa]."""
+    return lam / (2.0 * (lam + mu))
 
 
 def plane_strain_modulus(lam: float, mu: float) -> float:

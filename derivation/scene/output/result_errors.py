@@ -55,6 +55,8 @@ def digits_of_result(result: "Result", name: str) -> int:
     bound = bound_of(result, name)
     if math.isinf(bound) and math.isfinite(result.accuracy.bound):
         return 0
+    if math.isinf(bound):
+        return min(digits_of(bound), max(1, digits_of(_error_of(result, name, 0.0))))
     return max(digits_of(_error_of(result, name, bound)), min(1, digits_of(bound)))
 
 

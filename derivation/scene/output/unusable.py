@@ -94,10 +94,12 @@ def _by_stretching(result: "Result") -> str:
         thicker = " ".join(prefixed(thickness * part ** (-1.0 / THICKER), "m", 2))
         remedies.append(f"{name.replace('_', ' ')} {speed} or {thicker}")
     times, worst = deflections.largest / thickness, max(by_it.values())
+    few = math.isinf(result.accuracy.bound) and not model.inertia.modes
+    why = " As no result is usable, few plate modes are simulated." if few else ""
     return (
         f"The plate deflects by {times:.2g} thicknesses and stretches, which the model neglects "
         f"(error {up_to(worst)}). Speed or thickness for an error of about "
-        f"{percent(USABLE)}: {', '.join(remedies)}."
+        f"{percent(USABLE)}: {', '.join(remedies)}.{why}"
     )
 
 

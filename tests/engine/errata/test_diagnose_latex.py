@@ -7,15 +7,16 @@ from derivation.engine.errata.findings import Printed
 from derivation.engine.errata.lookup import comparable
 from derivation.engine.formula.notation import to_latex
 from derivation.engine.formula.parse import FormulaError
-from derivation.plate.derived import formulas
+from derivation.plate.derived import formulas, misprints
 from derivation.plate.elastic import diagnose_text
-from derivation.plate.misprints import misprints
+from derivation.plate.misprints import ERRATA
 from derivation.plate.vocabulary import PLATE
 
 CHAIN = formulas()
-FOUND = {f.printed: f.diagnosis.verdict for f in misprints(CHAIN)}
 COMPARED = [
-    p for p in FOUND if type(p) is Printed and not p.full and not p.says and p.solved is None
+    p
+    for p in ERRATA.printed
+    if type(p) is Printed and not p.full and not p.says and p.solved is None
 ]
 """Published equations that are compared as they are, without a statement in words."""
 DOTTED = {symbol for symbol, latex in PLATE.latex.items() if r"\dot" in latex}
@@ -51,7 +52,8 @@ def test_usual_notations_of_functions_are_read(text: str) -> None:
 @pytest.mark.parametrize("printed", COMPARED, ids=lambda printed: printed.name)
 def test_published_equations_are_read_with_both_sides(printed: Printed) -> None:
     """With both sides, number and punctuation, the result is that of the published expression."""
-    formula, finding = CHAIN[printed.name], FOUND[printed]
+    formula = CHAIN[printed.name]
+    (finding,) = (one.diagnosis.verdict for one in misprints() if one.printed == printed)
     text = rf"$${printed.symbol} = {formula.sum_sign}{printed.latex}, \quad ({printed.equation})$$"
     assert diagnose_text(printed.name, text, CHAIN, latex=True, digits=5).verdict == finding
 

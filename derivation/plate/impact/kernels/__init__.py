@@ -4,7 +4,7 @@ from pathlib import Path
 
 from derivation.engine.emit.modules import Routines
 from derivation.engine.emit.routine import SCALARS
-from derivation.plate.impact.kernels import simple, simple_laws
+from derivation.plate.impact.kernels import scene_laws, simple, simple_laws
 from derivation.plate.impact.kernels.inversion import reversed_kernels
 from derivation.plate.impact.kernels.motion import impact_kernels
 from derivation.plate.impact.kernels.numbers import impact_numbers
@@ -23,6 +23,19 @@ def simple_impact_kernels() -> Routines:
     return Routines("simple_impact_kernels", title, made, imports, SCALARS)
 
 
+def scene_law_kernels() -> Routines:
+    """Return the contact laws of the code of one scene."""
+    made = tuple(make() for make in scene_laws.ROUTINES)
+    return Routines("scene_laws", "Contact laws as the code of one scene needs them.", made, {})
+
+
+def scene_impact_kernels() -> Routines:
+    """Return the impact of the code of one scene, for single numbers."""
+    title = "Impact by Hertz's law as the code of one scene needs it."
+    imports = {"simple_impact_numbers": ("HERTZ_TIME",)}
+    return Routines("scene_impact", title, (scene_laws.hertz_impact(),), imports, SCALARS)
+
+
 MODULES = (
     ComputedModule("reversed_kernels", reversed_kernels),
     RuntimeModule("reversed_series", RUNTIME / "reversed_series.py"),
@@ -33,6 +46,8 @@ MODULES = (
     ComputedModule("simple_impact_numbers", simple.numbers),
     ComputedModule("simple_impact_kernels", simple_impact_kernels),
     RuntimeModule("simple_impact", RUNTIME / "simple_impact.py"),
+    ComputedModule("scene_laws", scene_law_kernels),
+    ComputedModule("scene_impact", scene_impact_kernels),
     ComputedModule("motion_kernels", motion_kernels),
     ComputedModule("perturbation_kernels", perturbation_kernels),
     RuntimeModule("perturbation", RUNTIME / "perturbation.py"),

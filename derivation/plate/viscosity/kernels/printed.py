@@ -7,7 +7,16 @@ from derivation.engine.emit.named import Claims, named_routine
 from derivation.engine.emit.routine import Let
 from derivation.plate.factors import MODERATE, PRODUCT, YOUNG, multiplied, root
 from derivation.plate.viscosity.theory import bounds as theory
-from derivation.plate.viscosity.theory.contact import C_1, epsilon
+from derivation.plate.viscosity.theory.contact import (
+    C_1,
+    P_e,
+    compliance,
+    delayed_force,
+    epsilon,
+    lag,
+    rate,
+    stiffness,
+)
 from derivation.plate.viscosity.theory.contact import viscous_number as number
 from derivation.plate.viscosity.theory.contact import weak_restitution as restitution
 from derivation.plate.viscosity.theory.two_bodies import (
@@ -113,6 +122,28 @@ def retardation_of_two() -> Claims:
     )
 
 
-ROUTINES = viscous_number_of_factors, restitution_of_number
+@named_routine
+def viscous_force() -> Claims:
+    """Return the force [N] of a contact with the elastic force P_e, where the plate is rigid."""
+    exact = delayed_force().by_rate
+    return Claims((P_e, stiffness, rate, viscous_time), (), (exact,), (exact,), {})
+
+
+@named_routine
+def bent_viscous_force() -> Claims:
+    """Return the force [N] and dP_e/dt [N/s] where the plate bends elastically."""
+    force, elastic_rate = delayed_force().force, delayed_force().elastic_rate
+    more = sp.Symbol("more", real=True)
+    return Claims(
+        (P_e, lag, compliance, viscous_time),
+        (Let(more, lag / compliance),),
+        (P_e + more, more / viscous_time),
+        (force, elastic_rate),
+        {},
+        sp.simplify,
+    )
+
+
+ROUTINES = viscous_number_of_factors, restitution_of_number, viscous_force, bent_viscous_force
 BOUNDS = spiral_bounds, rebound_bounds
 BODIES = (retardation_of_two,)

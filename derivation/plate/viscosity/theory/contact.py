@@ -15,11 +15,13 @@ The impact runs from phi = 0 over the turning point phi = pi/2 to tan(phi) = -ep
 """
 
 from functools import cache
+from typing import NamedTuple
 
 import flint
 import sympy as sp
 
 from derivation.engine.formula.ball import refine
+from derivation.engine.formula.functions import unspecified_function
 from derivation.engine.formula.proof import Proof, prove
 from derivation.plate.modes.theory.influence import PLANE_STRAIN_MODULUS
 from derivation.plate.vocabulary import Formula, R, m, v0, viscous_time, x_v
@@ -103,6 +105,64 @@ def viscous_number() -> Formula:
         ("C_half",),
         proof,
     )
+
+
+class DelayedForce(NamedTuple):
+    """Force of a viscoelastic contact, and the rate of its elastic force P_e, with their proof.
+
+    Attributes
+    ----------
+    by_rate
+        The force at a rate of the indentation, if nothing but the contact deforms.
+    force, elastic_rate
+        The force, and the rate of P_e, if the plate bends elastically.
+    proof
+        The proof of the three.
+    """
+
+    by_rate: sp.Expr
+    force: sp.Expr
+    elastic_rate: sp.Expr
+    proof: Proof
+
+
+P_e, stiffness, rate, lag, compliance = sp.symbols("P_e stiffness rate lag compliance", real=True)
+"""Elastic force, its derivative by the indentation, rate of the indentation, indentation minus that
+of a static contact under P_e, and bending compliance of the plate."""
+
+
+@cache
+def delayed_force() -> DelayedForce:
+    """Return the force P = P_e + A_v dP_e/dt of a contact, on a rigid plate and on one that bends.
+
+    A plate that bends follows the force at once. Under P_e alone the contact would have the
+    indentation of a static contact; bending under P - P_e adds the rest.
+    """
+    t, P, slope = sp.symbols("t P slope", real=True)
+    stiffness_of = unspecified_function("stiffness_of")
+    z, elastic = sp.Function("z")(t), unspecified_function("elastic", stiffness_of)
+    (solved,) = sp.solve(
+        (P - P_e - viscous_time * slope, compliance * (P - P_e) - lag), (P, slope), dict=True
+    )
+    names = {sp.diff(z, t): rate, elastic(z): P_e, stiffness_of(z): stiffness}
+    delayed = (elastic(z) + viscous_time * sp.diff(elastic(z), t)).subs(names)
+
+    def residuals(by_rate: sp.Expr, force: sp.Expr, elastic_rate: sp.Expr) -> dict[str, sp.Expr]:
+        return {
+            "by rate": by_rate - delayed,
+            "delay": force - P_e - viscous_time * elastic_rate,
+            "bending": compliance * (force - P_e) - lag,
+        }
+
+    claims = P_e + viscous_time * stiffness * rate, solved[P], solved[slope]
+    proof = prove(
+        "Force of a viscoelastic contact",
+        "The elastic force is differentiated along the motion; with bending, the delay of the "
+        "force and the indentation are two linear equations for the force and the rate.",
+        residuals,
+        *claims,
+    )
+    return DelayedForce(*claims, proof)
 
 
 C_1 = sp.Rational(4, 5) ** sp.Rational(2, 5) * sp.beta(sp.Rational(3, 5), sp.Rational(3, 2))

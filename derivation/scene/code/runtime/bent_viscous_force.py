@@ -6,6 +6,7 @@ from numpy.typing import ArrayLike
 from derivation.scene.code.runtime.data import COMPLIANCE, RETARDATION_TIME
 from derivation.scene.code.runtime.elastic_force import elastic_force
 from derivation.scene.code.runtime.stiffness import stiffness
+from generated.viscosity_kernels import bent_viscous_force
 
 
 def force(delta: ArrayLike, elastic: ArrayLike) -> np.ndarray:
@@ -29,8 +30,9 @@ def force(delta: ArrayLike, elastic: ArrayLike) -> np.ndarray:
         MAX_INDENTATION.
     """
     delta, elastic = np.asarray(delta, dtype=np.float64), np.asarray(elastic, dtype=np.float64)
-    bent = np.where(elastic > 0, delta - elastic, 0.0) / COMPLIANCE
-    return np.maximum(elastic_force(elastic) + bent, 0.0)
+    lag = np.where(elastic > 0, delta - elastic, 0.0)
+    plate = np.asarray(COMPLIANCE), np.asarray(RETARDATION_TIME)
+    return np.maximum(bent_viscous_force(elastic_force(elastic), lag, *plate)[0], 0.0)
 
 
 def elastic_rate(delta: ArrayLike, elastic: ArrayLike) -> np.ndarray:
@@ -60,4 +62,5 @@ def elastic_rate(delta: ArrayLike, elastic: ArrayLike) -> np.ndarray:
     """
     delta, elastic = np.asarray(delta, dtype=np.float64), np.asarray(elastic, dtype=np.float64)
     elastic = np.where(elastic > 0, elastic, np.nan)
-    return (delta - elastic) / (RETARDATION_TIME * COMPLIANCE * stiffness(elastic))
+    plate = np.asarray(COMPLIANCE), np.asarray(RETARDATION_TIME)
+    return bent_viscous_force(np.asarray(0.0), delta - elastic, *plate)[1] / stiffness(elastic)

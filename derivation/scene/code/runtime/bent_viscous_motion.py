@@ -5,6 +5,7 @@ import numpy as np
 from derivation.scene.code.runtime.acceleration import _acceleration
 from derivation.scene.code.runtime.data import COMPLIANCE, RETARDATION_TIME
 from derivation.scene.code.runtime.hertz_law import _law
+from generated.viscosity_kernels import bent_viscous_force
 
 
 def _start(v0: float, unit: float, time: float) -> tuple[np.ndarray, np.ndarray, float]:
@@ -18,8 +19,9 @@ def _forces(state: np.ndarray, unit: float) -> tuple[np.ndarray, ...]:
     cube, _, depth, _ = state
     a = np.cbrt(np.maximum(cube, (1e-20 * unit) ** 3))
     elastic, static, force_a, _ = _law(a)
-    viscous = (depth - static) / COMPLIANCE
-    return elastic + viscous, 3.0 * a * a / force_a * viscous / RETARDATION_TIME, depth, a
+    plate = np.asarray(COMPLIANCE), np.asarray(RETARDATION_TIME)
+    P, elastic_rate = bent_viscous_force(elastic, depth - static, *plate)
+    return P, 3.0 * a * a / force_a * elastic_rate, depth, a
 
 
 def _rates(state: np.ndarray, unit: float) -> np.ndarray:

@@ -8,5 +8,4 @@ from derivation.scene.code.runtime.data import MAX_INDENTATION
 
 def _inside(delta: ArrayLike) -> np.ndarray:
     """Return indentations, at least 0, and NaN outside the domain of the law."""
-    delta = np.maximum(np.asarray(delta, dtype=np.float64), 0.0)
-    return np.where(delta <= MAX_INDENTATION, delta, np.nan)
+    return np.where((x := np.maximum(delta, 0.0, dtype=np.float64)) <= MAX_INDENTATION, x, np.nan)

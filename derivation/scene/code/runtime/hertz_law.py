@@ -5,6 +5,7 @@ from numpy.typing import ArrayLike
 
 from derivation.scene.code.runtime.data import MODULUS, R
 from derivation.scene.code.runtime.domain import _inside
+from generated.scene_laws import hertz_law
 
 
 def contact_radius(delta: ArrayLike) -> np.ndarray:
@@ -14,4 +15,4 @@ def contact_radius(delta: ArrayLike) -> np.ndarray:
 
 def _law(a: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Return force P [N], indentation d [m], dP/da and dd/da at contact radii a [m]."""
-    return 4.0 / 3.0 * MODULUS / R * a**3, a * a / R, 4.0 * MODULUS / R * a * a, 2.0 * a / R
+    return hertz_law(a, np.asarray(R), np.asarray(MODULUS))

@@ -6,6 +6,7 @@ from numpy.typing import ArrayLike
 from derivation.scene.code.runtime.data import RETARDATION_TIME
 from derivation.scene.code.runtime.elastic_force import elastic_force
 from derivation.scene.code.runtime.stiffness import stiffness
+from generated.viscosity_kernels import viscous_force
 
 
 def force(delta: ArrayLike, rate: ArrayLike = 0.0) -> np.ndarray:
@@ -28,5 +29,5 @@ def force(delta: ArrayLike, rate: ArrayLike = 0.0) -> np.ndarray:
         P [N] in the broadcast shape of the arguments; 0 for delta <= 0, NaN above
         MAX_INDENTATION.
     """
-    rate = np.asarray(rate, dtype=np.float64)
-    return np.maximum(elastic_force(delta) + RETARDATION_TIME * stiffness(delta) * rate, 0.0)
+    rate, time = np.asarray(rate, dtype=np.float64), np.asarray(RETARDATION_TIME)
+    return np.maximum(viscous_force(elastic_force(delta), stiffness(delta), rate, time), 0.0)

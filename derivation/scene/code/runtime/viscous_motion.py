@@ -5,6 +5,7 @@ import numpy as np
 from derivation.scene.code.runtime.acceleration import _acceleration
 from derivation.scene.code.runtime.data import RETARDATION_TIME
 from derivation.scene.code.runtime.hertz_law import _law
+from generated.viscosity_kernels import viscous_force
 
 
 def _start(v0: float, unit: float, time: float) -> tuple[np.ndarray, np.ndarray, float]:
@@ -18,7 +19,8 @@ def _forces(state: np.ndarray, unit: float) -> tuple[np.ndarray, ...]:
     a, v, _ = state
     a = np.maximum(a, 1e-20 * unit)
     P, depth, force_a, depth_a = _law(a)
-    return P + RETARDATION_TIME * force_a / depth_a * v, a / depth_a * v, depth, a
+    delayed = viscous_force(P, force_a / depth_a, v, np.asarray(RETARDATION_TIME))
+    return delayed, a / depth_a * v, depth, a
 
 
 def _rates(state: np.ndarray, unit: float) -> np.ndarray:

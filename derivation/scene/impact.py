@@ -37,6 +37,7 @@ from derivation.scene.measured.measured import (
     ambiguity_warnings,
     error_of,
     inaccurate_constant,
+    model_error_of,
     remaining_of,
     toleranced,
     without_constant,
@@ -137,7 +138,8 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     deflections = Deflections(deflection, np.zeros(0))
     if motion is not None:
         deflection, deflections = motion.largest_deflection(law), deflections_of(law, motion)
-    errors = model_errors(law, numbers, deflections, motion)
+    errors, measured = model_errors(law, numbers, deflections, motion), model_error_of(scene)
+    errors = {name: error + measured for name, error in errors.items()}
     model_error = max(errors[name] for name in selected.outputs)
     names = ImpactErrors._fields
     stated = ImpactErrors(*(accuracy_on((x,), selected, motion, accuracy).bound for x in names))
@@ -153,7 +155,7 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
     pressed = accuracy_on(OUTPUTS, selected, motion, accuracy)
     loaded = accuracy_on(("max_force",), selected, motion, accuracy)
     pressure_error = pressed.pressure_bound + errors["max_contact_radius"]
-    stress_error = loaded.bound + stress.error
+    stress_error = loaded.bound + stress.error + measured
     warnings = (
         *on_units,
         *hollow_warnings(model),

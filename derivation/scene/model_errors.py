@@ -2,13 +2,20 @@
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from derivation.scene.contact_law.corrections import stretching
 from derivation.scene.contact_law.edge_curvature import edge_curvature_errors
 from derivation.scene.contact_law.edge_remainder import edge_remainder
 from derivation.scene.contact_law.finite_sphere import finite_sphere_errors
 from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.contact_law.limits import local_indentation
 from derivation.scene.dynamic.model_error import curvature_error, end_error, inertia_error
-from derivation.scene.dynamic.stretching_error import Deflections, stretching_error
+from derivation.scene.dynamic.stretching_error import (
+    Deflections,
+    deflections_of,
+    stretching_error,
+)
 from derivation.scene.dynamic.time_element import P
 from derivation.scene.dynamic.unlike_bodies import unlike_bodies_errors
 from derivation.scene.effects.effect import Results, weight_work_ratio
@@ -17,6 +24,15 @@ from derivation.scene.selection.method_selection import growth_of
 
 if TYPE_CHECKING:
     from derivation.scene.dynamic.wave_motion import DynamicImpact
+
+
+def deflections_in(
+    law: ContactLaw, numbers: Results, motion: "DynamicImpact | None"
+) -> Deflections:
+    """Return the deflections of the plate in an impact with given outputs."""
+    if motion is not None:
+        return deflections_of(law, motion)
+    return Deflections(numbers[1] - float(local_indentation(law, numbers[3])), np.zeros(0))
 
 
 def model_errors(

@@ -114,10 +114,10 @@ class Result:
         """Largest tensile stress on the axis of the back face, with its error."""
         numbers = (
             self.contact_time, self.max_indentation, self.max_force, self.max_contact_radius,
-            self.restitution,
-        )  # fmt: skip
-        on_edge = not self.effects.edge_disabled
-        return tensile_stress(self.effects.law, self.dynamics, numbers, on_edge)
+            self.restitution)  # fmt: skip
+        law, on_edge = self.effects.law, not self.effects.edge_disabled
+        stress = tensile_stress(law, self.dynamics, numbers, on_edge)
+        return stress._replace(error=stress.error + measured.model_error_of(self.scene))
 
     @property
     def strength_note(self) -> str:

@@ -352,6 +352,7 @@ def test_constant_is_shown_with_the_digits_of_its_error() -> None:
     wanted = {"solve_for": "yield_stress", "restitution": 1.0 - 1e-12, "target": "plate"}
     thick = BLOCK["plate"] | {"radius": 0.1, "thickness": 0.1}
     tables = BLOCK | {"plate": thick, "effects": {"inertia": False}}
+    tables |= {"impact": {"speed": 1e-5}}  # a narrow contact, with a small model error
     scene = read(tables | {"measured": wanted})
     value = in_words(scene).partition(" = ")[2].split()[0]
     assert len(value.replace(".", "").lstrip("0")) == 2

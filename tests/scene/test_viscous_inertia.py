@@ -50,6 +50,22 @@ def test_error_of_the_force_at_the_onset_causes_no_separation(number: int, modes
     assert 0.5 < result.contact_time * model.v0 / result.max_indentation < 50.0
 
 
+def test_a_force_below_its_error_while_the_radius_grows_is_no_separation() -> None:
+    """An earlier version found a first contact of 2e-17 s, and then divided by its impulse 0."""
+    scene = read({
+        "sphere": {"radius": 0.42, "mass": 24.0, "youngs_modulus": 1.84e8, "poissons_ratio": 0.41,
+                   "retardation_time": 0.026},
+        "plate": {"radius": 0.154, "thickness": 9.14e-3, "youngs_modulus": 1.65e8,
+                  "poissons_ratio": 0.253, "density": 4792.0, "retardation_time": 0.026,
+                  "loss_factor": 0.035},
+        "impact": {"speed": 4.31e-7},
+    })  # fmt: skip
+    result = simulate(scene, rtol=3e-3)
+    assert result.dynamics is not None
+    assert len(result.dynamics.inertia.contacts) == 1
+    assert 0.18 < result.contact_time < 0.2
+
+
 LIGHT_PLATE: dict[str, Any] = {
     "sphere": {"radius": 0.02, "density": 6400.0, "material": "glass"},
     "plate": {"radius": 0.1, "thickness": 1.2e-3, "youngs_modulus": 8.4e11, "poissons_ratio": 0.45,

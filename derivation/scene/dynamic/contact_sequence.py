@@ -13,7 +13,6 @@ from derivation.scene.dynamic.contact_errors import STUCK, check_width, no_solut
 from derivation.scene.dynamic.flight import next_contact
 from derivation.scene.dynamic.next_element import (
     PHASE,
-    ROUGH,
     begun,
     error_and_scales,
     left_after,
@@ -292,10 +291,9 @@ def contact(
         # A viscoelastic face separates before it is flat, and may touch the sphere again within an
         # element.
         ending = problem.retardation_time or float(made.element.rows[P].sum()) <= 0.0
-        # At first the force is smaller than its error; a zero there is not the end of the contact.
-        onset = problem.retardation_time and not x
-        least = ROUGH * tolerance * float(largest[P, 0]) if onset else 0.0
-        if ending and (end := made.element.fall(P, least)) is not None:
+        # At first the force is smaller than its error; a zero while the radius still grows is not
+        # the end of the contact.
+        if ending and (end := made.element.fall(P)) is not None:
             last = last_element(problem, n, made, end, state, radius, enough)
             ended = origin + (last.element.x + last.element.length) ** ONSET
             pieces = (*elements, last)

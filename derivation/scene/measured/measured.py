@@ -40,6 +40,10 @@ NEGLIGIBLE = 0.01
 """Error due to a constant over the tolerance below which a message does not state it."""
 CHANGE = 1e-2
 """Relative change of the constant that gives the sensitivities of the results."""
+STIFFER = 1.2
+"""Relative change of a constant over that of the indentation at equal force which the model causes,
+without plate inertia, at equal restitution [1]. The contact modulus E* changes as the power 3/2 of
+this change, the yield stress as E*^(4/5), and the retardation time, like the contact time, less."""
 LEAST_RATIO, MARGIN = 3.0, 1.5
 """Error of the results over that of the restitution in a measurement with plate inertia, estimated:
 its least value, and its value over that of a simulation with few modes."""
@@ -57,7 +61,9 @@ class Fit(NamedTuple):
     bound
         Error bound of the restitution in the measurement [1].
     constant
-        Estimated relative error of the constant [1].
+        Estimated relative error of the constant [1], with that by the model of the measurement.
+    model
+        Estimated relative error of the results by the model of the measurement [1].
     parts
         Tolerance of the results over that of a measurement with plate inertia [1]; 0 without
         plate inertia, where the tolerance of the measurement is `STATIC_RTOL`.
@@ -67,6 +73,7 @@ class Fit(NamedTuple):
     error: float
     bound: float
     constant: float
+    model: float
     parts: float
 
 
@@ -119,6 +126,16 @@ def error_of(scene: "Scene") -> float:
     return _fit_of(scene).error
 
 
+def error_of_constant(scene: "Scene") -> float:
+    """Return the estimated relative error of the constant, with that by the model [1]."""
+    return _fit_of(scene).constant
+
+
+def model_error_of(scene: "Scene") -> float:
+    """Return the estimated model error of the results by that of a measurement [1]; 0 without."""
+    return 0.0 if scene.measured is None else _fit_of(scene).model
+
+
 def remaining_of(scene: "Scene", rtol: float | None) -> float | None:
     """Return the part of a tolerance that the error of a fitted constant leaves [1].
 
@@ -141,9 +158,8 @@ def in_words(scene: "Scene") -> str:
     """Return a phrase with the constant, the measured restitution, specimen and speed."""
     wanted = scene.measured
     assert wanted is not None
-    fit = _fit_of(scene)
-    digits = min(DIGITS, digits_of(min(fit.constant, NO_BOUND)))
-    value, unit = prefixed(fit.value, UNITS[wanted.solve_for], digits)
+    digits = min(DIGITS, digits_of(min(error_of_constant(scene), NO_BOUND)))
+    value, unit = prefixed(solved(scene), UNITS[wanted.solve_for], digits)
     specimen = "a thick block" if wanted.target == "block" else "the plate"
     return (
         f"plate.{wanted.solve_for} = {value} {unit}, from the restitution "
@@ -202,9 +218,24 @@ def _fit(text: str) -> Fit:
         return _with_inertia(measured, tables.get("accuracy", {}).get("rtol"))
     value = measured.value(CLOSE["static"])
     found, changed = (measured.simulated(x) for x in (value, (1.0 + CHANGE) * value))
-    error = found.bound + abs(found.restitution / measured.goal - 1.0)
-    error = _error_over_slope(CHANGE * error, math.log(changed.restitution / found.restitution))
-    return Fit(value, error, found.bound, error, 0.0)
+    slope, change = _changes(found, changed)
+    error = _error_over_slope(_error_in(measured, found), slope)
+    model = STIFFER * float(found.model_errors["max_indentation"])
+    return Fit(value, error, found.bound, error + model, change * abs(slope) * model, 0.0)
+
+
+def _error_in(measured: Measurement, found: Trial) -> float:
+    """Return the error of the restitution in a measurement, without that of the model [1]."""
+    return found.bound + abs(found.restitution / measured.goal - 1.0)
+
+
+def _changes(one: Trial, other: Trial) -> tuple[float, float]:
+    """Return the change d ln e/d ln c of the restitution, and the largest of all over it."""
+    changes = [
+        math.log(after / before) / math.log1p(CHANGE)
+        for after, before in zip(other.outputs, one.outputs, strict=True)
+    ]
+    return changes[-1], _error_over_slope(max(map(abs, changes)), changes[-1])
 
 
 def _error_over_slope(error: float, slope: float) -> float:
@@ -224,9 +255,10 @@ def _with_inertia(measured: Measurement, rtol: float | None) -> Fit:
         Tolerance of the results [1].
     """
     first = rough_value(measured.to(LOOSE))
-    slope, ratio = (0.0, LEAST_RATIO) if first is None else _sensitivities(measured, first)
+    slope, change = (0.0, 0.0) if first is None else _sensitivities(measured, first)
     if not slope:  # with the rough value no energy is lost, but with the accurate one it may be
-        first, ratio = None, LEAST_RATIO
+        first, change = None, 0.0
+    ratio = _ratio(change)
     parts = 2.0 + (1.0 + AGREES) * ratio
     accurate = measured.to(DEFAULT if rtol is None else rtol / parts)
     try:
@@ -237,29 +269,30 @@ def _with_inertia(measured: Measurement, rtol: float | None) -> Fit:
         raise _inaccurate(least, rtol, named) from None
     if found is None:
         value = accurate.value(CLOSE["dynamic"])
-        slope, ratio = _sensitivities(measured, value)
+        slope, change = _sensitivities(measured, value)
+        ratio = _ratio(change)
         found = value, accurate.simulated(value)
     value, trial = found
-    error = trial.bound + abs(trial.restitution / measured.goal - 1.0)
-    return Fit(value, ratio * error, trial.bound, _error_over_slope(error, slope), parts)
+    error, model = _error_in(measured, trial), float(trial.model_errors["restitution"])
+    constant = _error_over_slope(error + model, slope)
+    return Fit(value, ratio * error, trial.bound, constant, change * model, parts)
+
+
+def _ratio(change: float) -> float:
+    """Return the error of the results over that of the restitution in a measurement [1]."""
+    return max(LEAST_RATIO, MARGIN * change)
 
 
 def _sensitivities(measured: Measurement, value: float) -> tuple[float, float]:
-    """Return the sensitivity of the restitution, and the error of the results over its error [1].
+    """Return the sensitivity of the restitution, and the change of the results over its change [1].
 
-    The errors of the results include their change with the constant, relative to the change of the
-    restitution. It is large where the restitution hardly depends on the constant.
+    It is large where the restitution hardly depends on the constant.
     """
     # The same modes, so that their number does not change the results.
     tables = {k: v for k, v in measured.tables.items() if k != "accuracy"}
     same = replace(measured, tables=tables, part=2.0)
     one, other = (same.simulated(x) for x in (value, (1.0 + CHANGE) * value))
-    *changes, change = (
-        math.log(after / before) / math.log1p(CHANGE)
-        for after, before in zip(other.outputs, one.outputs, strict=True)
-    )
-    largest = max(map(abs, changes))
-    return change, max(LEAST_RATIO, MARGIN * largest / abs(change) if change else math.inf)
+    return _changes(one, other)
 
 
 def _polished(

@@ -119,15 +119,19 @@ class Measurement:
         from derivation.scene.contact_law.limits import check_radius
         from derivation.scene.dynamic.runs import with_few_modes
         from derivation.scene.impact import selected_effects
-        from derivation.scene.selection.method_selection import solve_selected
+        from derivation.scene.model_errors import deflections_in, model_errors
+        from derivation.scene.selection.method_selection import dynamic_impact, solve_selected
 
         rtol, selected = selected_effects(self.scene(value))
-        law, bound = selected.law, ROUGH
+        law, bound, errors = selected.law, ROUGH, dict[str, float]()
         if self.part and law.dynamic:
             numbers = with_few_modes(law, self.part, self.work).numbers
         else:
-            numbers, accuracy = solve_selected(selected, rtol, within=within or self.static)
+            within = within or self.static
+            numbers, accuracy = solve_selected(selected, rtol, within=within)
             bound = accuracy.bound
+            motion = dynamic_impact(selected, rtol, within) if law.dynamic else None
+            errors = model_errors(law, numbers, deflections_in(law, numbers, motion), motion)
         if math.isnan(numbers[-1]):
             raise IncompleteTrialError(
                 "measured.target: expected an impact that can be computed up to the last "
@@ -135,7 +139,7 @@ class Measurement:
                 'a lighter sphere, or set measured.target = "block"'
             )
         check_radius(law, a := numbers[3], "impact.speed", "reduce the speed")
-        return Trial(numbers, min(law.max_pressure(a), law.pressure_limit), bound)
+        return Trial(numbers, min(law.max_pressure(a), law.pressure_limit), bound, errors)
 
     def scene(self, value: float | None) -> "Scene":
         """Return the scene with a trial value; without one, the plate loses no energy by it."""
@@ -373,15 +377,11 @@ class Measurement:
     def check_reached(self, value: float, margin: float = 0.0) -> None:
         """Raise an error if a constant that gives the smallest restitution gives a larger one.
 
-        Parameters
-        ----------
-        margin
-            Relative difference that is also allowed [1].
-
         Raises
         ------
         UnreachedError
-            If the restitution with this constant exceeds the measured one beyond its error bound.
+            If the restitution with this constant exceeds the measured one by more than its error
+            bound and the relative difference `margin` [1].
         """
         trial = self.simulated(value)
         least = trial.restitution * (1.0 - trial.bound)

@@ -41,11 +41,15 @@ class IncompleteTrialError(SceneError):
 
 
 class Trial(NamedTuple):
-    """The results of a measurement with a trial value: outputs, pressure [Pa], error bound [1]."""
+    """The results of a measurement with a trial value: outputs, pressure [Pa], error bound [1].
+
+    `model_errors` are those of each output [1]; a rough simulation has none.
+    """
 
     outputs: Results
     max_pressure: float
     bound: float
+    model_errors: dict[str, float]
 
     @property
     def contact_time(self) -> float:

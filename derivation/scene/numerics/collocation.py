@@ -91,13 +91,6 @@ def newton_step(
     return np.asarray(shorter, dtype=np.float64), size
 
 
-def _falls(row: Array) -> Array:
-    """Return the points in [-1, 1] where a Legendre series decreases through zero, ascending."""
-    roots = legroots(row)
-    inner = np.sort(roots.real[(np.abs(roots.imag) < _REAL) & (np.abs(roots.real) <= 1.0)])
-    return np.asarray(inner[legval(inner, legder(row)) < 0.0])
-
-
 def settled(size: float, before: float) -> bool:
     """Return whether steps are due to rounding: tiny, or small and no longer decreasing."""
     return size <= _CLOSE or (size <= _NEARLY and size > 0.1 * before)
@@ -164,22 +157,18 @@ class Element(NamedTuple):
         s = 2.0 * (x - self.x) / self.length - 1.0
         return np.asarray(legvander(s, self.slope.size - 1).T, dtype=np.float64)
 
-    def fall(self, row: int, least: float = 0.0) -> float | None:
-        """Return x where a row first falls through zero; None if it stays positive.
-
-        A row that begins at zero may fall below it by `least`, its error, without a fall.
-        """
+    def fall(self, row: int) -> float | None:
+        """Return x where a row first falls through zero while the radius decreases, or None."""
         values = radau(self.slope.size).values @ self.rows[row]
         if values.min() > _LOW * values.max():
             return None
-        falls = _falls(self.rows[row])
-        if least:
-            shifted = self.rows[row].copy()
-            shifted[0] += least
-            falls = falls[falls <= min(_falls(shifted), default=-2.0)][-1:]
-        if falls.size:
-            return self.x + self.length * (1.0 + float(falls[0])) / 2.0
-        return self.x + self.length if values[-1] <= -least else None
+        roots = legroots(self.rows[row])
+        inner = roots.real[(np.abs(roots.imag) < _REAL) & (np.abs(roots.real) <= 1.0)]
+        # Rounding may hide a zero at the end.
+        inner = np.append(np.sort(inner), 1.0) if values[-1] <= 0.0 else np.sort(inner)
+        falling = np.maximum(legval(inner, legder(self.rows[row])), legval(inner, self.slope)) < 0.0
+        falls = inner[falling]
+        return self.x + self.length * (1.0 + float(falls[0])) / 2.0 if falls.size else None
 
     def end(self, row: int) -> float:
         """Return x where a row with a single zero, positive before it, falls through zero."""

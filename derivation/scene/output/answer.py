@@ -8,7 +8,14 @@ from typing import TYPE_CHECKING
 from derivation.engine.text import aligned, paragraph
 from derivation.scene.contact_law.yield_warnings import assumed_yield_stress, risen_pressure
 from derivation.scene.dynamic.stretching_error import USABLE
-from derivation.scene.output.error_causes import PLATE, SPHERE, STRETCHING, TIMES, causes
+from derivation.scene.output.error_causes import (
+    MEASURED,
+    PLATE,
+    SPHERE,
+    STRETCHING,
+    TIMES,
+    causes,
+)
 from derivation.scene.output.result_errors import largest_within_error, unknown
 from derivation.scene.quantity import digits_of, percent, prefixed, significant, up_to
 
@@ -146,6 +153,7 @@ def _in_words(result: "Result") -> dict[str, str]:
         STRETCHING: "stretching of the plate",
         SPHERE: sphere if result.effects.law.softness else "the motion of the faces",
         TIMES: "different retardation times of sphere and plate",
+        MEASURED: "the measurement of the restitution",
     }
 
 

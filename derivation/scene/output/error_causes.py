@@ -2,14 +2,12 @@
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from derivation.scene.contact_law.finite_sphere import finite_sphere_errors
-from derivation.scene.contact_law.limits import local_indentation
-from derivation.scene.dynamic.stretching_error import Deflections, deflections_of
+from derivation.scene.dynamic.stretching_error import Deflections
 from derivation.scene.dynamic.unlike_bodies import unlike_bodies_errors
 from derivation.scene.effects.effect import Results
-from derivation.scene.model_errors import model_errors
+from derivation.scene.measured.measured import model_error_of
+from derivation.scene.model_errors import deflections_in, model_errors
 from derivation.scene.scene import OUTPUTS
 from derivation.scene.selection.method_selection import growth_of
 
@@ -18,7 +16,9 @@ if TYPE_CHECKING:
 
 SMALLEST = 1e-5
 """Part of the deflection that does not stretch the plate."""
-PLATE, STRETCHING, SPHERE, TIMES = "plate", "stretching", "sphere", "retardation times"
+PLATE, STRETCHING, SPHERE, TIMES, MEASURED = (
+    "plate", "stretching", "sphere", "retardation times", "measurement"
+)  # fmt: skip
 
 
 def causes(result: "Result", name: str) -> dict[str, float]:
@@ -30,8 +30,10 @@ def causes(result: "Result", name: str) -> dict[str, float]:
     without = errors_of(result, deflections_of_result(result).times(SMALLEST))[name]
     stretching = max(model_error - without, 0.0)
     sphere, times = sphere_errors(result)[name], retardation_errors(result)[name]
-    plate = max(model_error - stretching - sphere - times, 0.0)
-    return {PLATE: plate, STRETCHING: stretching, SPHERE: sphere, TIMES: times}
+    measured = model_error_of(result.scene)
+    plate = max(model_error - stretching - sphere - times - measured, 0.0)
+    parts = {PLATE: plate, STRETCHING: stretching, SPHERE: sphere, TIMES: times}
+    return parts | {MEASURED: measured}
 
 
 def numbers_of(result: "Result") -> Results:
@@ -44,7 +46,9 @@ def numbers_of(result: "Result") -> Results:
 
 def errors_of(result: "Result", deflections: Deflections) -> dict[str, float]:
     """Return the model errors of an impact with other deflections."""
-    return model_errors(result.effects.law, numbers_of(result), deflections, result.dynamics)
+    errors = model_errors(result.effects.law, numbers_of(result), deflections, result.dynamics)
+    measured = model_error_of(result.scene)
+    return {name: error + measured for name, error in errors.items()}
 
 
 def sphere_errors(result: "Result", part: float = 1.0) -> dict[str, float]:
@@ -71,8 +75,4 @@ def retardation_errors(result: "Result") -> dict[str, float]:
 
 def deflections_of_result(result: "Result") -> Deflections:
     """Return the deflections that the model errors refer to."""
-    law = result.effects.law
-    if result.dynamics is not None:
-        return deflections_of(law, result.dynamics)
-    local = float(local_indentation(law, result.max_contact_radius))
-    return Deflections(result.max_indentation - local, np.zeros(0))
+    return deflections_in(result.effects.law, numbers_of(result), result.dynamics)

@@ -59,6 +59,19 @@ def simulated(tables: Mapping[str, Any], rtol: float | None) -> tuple[Result | N
         return None, str(error)
 
 
+def test_rows_of_a_plate_that_only_bends() -> None:
+    """With a rigid and an elastic sphere, from a nearly linear spring to a half-space."""
+    only = dict.fromkeys(("non_hertzian_pressure", "finite_thickness", "finite_radius"), False)
+    columns = {"plate.thickness": np.geomspace(1e-3, 1.0, 7), "impact.speed": np.full(7, 1e-3)}
+    for sphere in {"radius": 0.01, "mass": 0.03, "material": None}, {}:
+        tables = scene_with(
+            sphere=sphere, impact={"gravity": 0.0},
+            effects={"inertia": False, "spherical_profile": False, **only},
+        )  # fmt: skip
+        solution = check(tables, columns)
+        assert {"hertz bending", "hertz sphere_elasticity bending"} & set(solution.effects)
+
+
 def never(*_: object, **__: object) -> None:
     """Fail if a single scene is simulated."""
     raise AssertionError("a row was not solved in arrays")

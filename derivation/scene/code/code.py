@@ -29,6 +29,7 @@ from derivation.scene.numerics.crossing import last_true
 from derivation.scene.numerics.quadrature import NODES
 from derivation.scene.output.answer import model_note
 from derivation.scene.quantity import rounded_up
+from derivation.scene.quasi_static.closed_form import bend_of, only_bends
 from derivation.scene.quasi_static.motion import Motion
 from derivation.scene.quasi_static.viscous_law import bending_of
 from derivation.scene.result import Result
@@ -189,13 +190,12 @@ def _kind(law: ContactLaw) -> str:
     """Return the form of the law: Hertz, Hertz with bending, or polynomials."""
     if law.hertzian:
         return "hertz"
-    return "bent" if all(e.hertzian or e.bends for e in law.chosen) else "table"
+    return "bent" if only_bends(law) else "table"
 
 
 def _bend(law: ContactLaw) -> float:
     """Return the bending deflection over Hertz's indentation, over the contact radius [1/m]."""
-    h = law.model.h
-    return float(law.deflection(np.array([h])).depth[0]) / (1.0 + law.softness) / h
+    return float(bend_of(law)[0]) / law.model.h
 
 
 def _compliance(law: ContactLaw, a: float) -> float:

@@ -70,9 +70,8 @@ def hertz(R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: Arr
 def leading(R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: Array) -> Estimates:
     """Compute impacts by delta = (a^2/R) (1 + c_1 a/h), like `simple_impact.leading`."""
     modulus, radius, known = _spheres(R, m, v0, h, b, lam, mu)
-    plate, over_h = plates_of(np.where(known, h / b, 1.0)), radius / h
-    radius_ratio = _radius_ratio(_formulas.beside_hertz(plate.bend, over_h))
-    A, a = radius_ratio * over_h, radius_ratio * radius
+    plate = plates_of(np.where(known, h / b, 1.0))
+    A, a, peaks = _with_bending(R, v0, h, modulus, radius, np.asarray(plate.bend))
     top = TOP * A
     steep = _formulas.steepness(plate.bend, top)
     known &= steep > -DEEP
@@ -80,9 +79,28 @@ def leading(R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: A
     wrong, low, rise = _formulas.leading_bounds(*plate[1:], steep, top)
     fall, rise = np.maximum(0.0, -rise), np.maximum(0.0, rise)
     law = _law_error(low + wrong, np.broadcast_to(wrong, low.shape), fall, rise)
-    depth, force = _formulas.peaks(a, R, modulus, plate.bend * A)
-    time = _leading_time(a, R, v0, _formulas.steepness(plate.bend, A))
-    return _estimates(known, a, np.minimum(b, R), (time, depth, force), law, QUADRATURE)
+    return _estimates(known, a, np.minimum(b, R), peaks, law, QUADRATURE)
+
+
+def bent(
+    R: Array, m: Array, v0: Array, h: Array, b: Array, lam: Array, mu: Array, bend: Array
+) -> Estimates:
+    """Compute impacts by delta = (a^2/R) (1 + bend a/h), the law of a plate that only bends."""
+    modulus, radius, known = _spheres(R, m, v0, h, b, lam, mu)
+    _, a, peaks = _with_bending(R, v0, h, modulus, radius, bend)
+    return _estimates(known, a, np.minimum(b, R), peaks, np.zeros_like(a), QUADRATURE)
+
+
+def _with_bending(
+    R: Array, v0: Array, h: Array, modulus: Array, radius: Array, bend: Array
+) -> tuple[Array, Array, tuple[Array, Array, Array]]:
+    """Return a/h, a, and time, indentation and force, for Hertz's largest radii."""
+    over_h = radius / h
+    radius_ratio = _radius_ratio(_formulas.beside_hertz(bend, over_h))
+    A, a = radius_ratio * over_h, radius_ratio * radius
+    depth, force = _formulas.peaks(a, R, modulus, bend * A)
+    time = _leading_time(a, R, v0, _formulas.steepness(bend, A))
+    return A, a, (time, depth, force)
 
 
 def single(run: Callable[..., Estimates], *numbers: float) -> kernels.Estimate | None:

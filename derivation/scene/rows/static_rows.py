@@ -10,6 +10,7 @@ from derivation.scene import kernels
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.numerics.quadrature import MORE_TIMES, NODES
 from derivation.scene.quasi_static import simple_laws
+from derivation.scene.quasi_static.closed_form import bend_of, only_bends
 from derivation.scene.quasi_static.motion import closeness, largest_radii, results_at, settled
 from derivation.scene.selection.method_selection import rounding_of, whole_law
 from generated.arrays import Double as Array
@@ -66,7 +67,9 @@ def impacts_of(law: ContactLaw, count: int, rest: Array | None) -> Impacts:
     if law.of_paper:
         _by_papers_law(law, rest, impacts)
     elif law.hertzian and not np.any(law.gravity):
-        _on_half_space(law, impacts)
+        _in_closed_form(law, impacts)
+    elif only_bends(law) and not np.any(law.gravity):
+        _in_closed_form(law, impacts, bend_of(law))
     else:
         _by_any_law(law, impacts)
     return impacts
@@ -111,15 +114,20 @@ def _limits(law: ContactLaw, count: int) -> Array:
     return np.broadcast_to(law.limit, (count, 1))[:, 0]
 
 
-def _on_half_space(law: ContactLaw, impacts: Impacts) -> None:
-    """Use Hertz's law in closed form, with the modulus E* of the contact."""
+def _in_closed_form(law: ContactLaw, impacts: Impacts, bend: Array | None = None) -> None:
+    """Use Hertz's law, or that of a plate that only bends, with the modulus E* of the contact."""
     count = len(impacts.law)
     modulus_ratio = np.broadcast_to(1.0 / (1.0 + law.softness), (count, 1))[:, 0]
     R, m, v0, h, b, lam, mu = flat_numbers(law, count)
+    numbers = R, m, v0, h, b, modulus_ratio * lam, modulus_ratio * mu
     with np.errstate(all="ignore"):
-        one = simple_laws.hertz(R, m, v0, h, b, modulus_ratio * lam, modulus_ratio * mu)
+        if bend is None:
+            one, quadrature, rounding = simple_laws.hertz(*numbers), 0.0, 0.0
+        else:
+            one = simple_laws.bent(*numbers, np.broadcast_to(bend, (count, 1))[:, 0])
+            quadrature, rounding = one.quadrature, rounding_of(law)
     known = np.isfinite(one.law)
-    impacts.put(known, (*(x[known] for x in one[:4]), 0.0, 0.0, one.rounding))
+    impacts.put(known, (*(x[known] for x in one[:4]), 0.0, quadrature, one.rounding + rounding))
 
 
 def _by_any_law(law: ContactLaw, impacts: Impacts) -> None:

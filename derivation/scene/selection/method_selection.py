@@ -25,6 +25,7 @@ from derivation.scene.input.messages import shown, tolerance_remedy
 from derivation.scene.model import Model
 from derivation.scene.quantity import rounded_up
 from derivation.scene.quasi_static import motion, simple_laws
+from derivation.scene.quasi_static.closed_form import closed_form
 from derivation.scene.scene import TIGHTEST
 from derivation.scene.selection.achieved_accuracy import (
     ESTIMATED,
@@ -217,10 +218,14 @@ def _basis(selected: SelectedEffects) -> str:
 
 def _composed(law: ContactLaw) -> tuple[Results, AchievedAccuracy]:
     """Return the outputs on a quasi-static plate by a law of any effects, with their accuracy."""
-    if law.hertzian and not (law.viscous or law.plastic or law.gravity):
-        closed = _half_space(law)
-        if closed is not None:
-            return closed
+    closed = closed_form(law)
+    if closed is not None:
+        exact, quadrature = Part(0.0, PROVED), Part(closed.quadrature, PROVED)
+        if law.hertzian:
+            method, rounding = "hertz", Part(closed.rounding, ROUNDING_ANALYSIS)
+        else:
+            method, rounding = "full", Part(closed.rounding + rounding_of(law), TESTED)
+        return (*closed[:4], 1.0), AchievedAccuracy(method, None, exact, quadrature, rounding)
     motion = moved(law)
     of_slope = float(law.cancellation(np.array([motion.max_contact_radius]))[0])
     return motion.numbers, AchievedAccuracy(
@@ -324,19 +329,6 @@ def rounding_of(law: ContactLaw) -> float:
 
         rounding += STEPS
     return rounding
-
-
-def _half_space(law: ContactLaw) -> tuple[Results, AchievedAccuracy] | None:
-    """Return the outputs by Hertz's law in closed form; None for extreme values."""
-    R, m, v0, h, b, lam, mu = law.model.numbers
-    modulus_ratio = 1.0 / (1.0 + law.softness)
-    estimate = simple_laws.single(
-        simple_laws.hertz, R, m, v0, h, b, modulus_ratio * lam, modulus_ratio * mu
-    )
-    if estimate is None:
-        return None
-    none, rounding = Part(0.0, PROVED), Part(estimate.rounding, ROUNDING_ANALYSIS)
-    return (*estimate[:4], 1.0), AchievedAccuracy("hertz", None, none, none, rounding)
 
 
 def solve(model: Model, rtol: float | None = None) -> tuple[Results, AchievedAccuracy]:

@@ -134,7 +134,7 @@ class Measured(Table):
     ...     measured=pc.Measured(restitution=0.8, solve_for="retardation_time", tested_at=0.5),
     ... )
     >>> pc.simulate(scene).measured_note.partition(",")[0]
-    'plate.retardation_time = 5.838 µs'
+    'plate.retardation_time = 5.8 µs'
     """
 
     restitution: Annotated[float, Field(gt=0, lt=1)] = Field(

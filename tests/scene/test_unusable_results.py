@@ -90,6 +90,8 @@ def test_few_modes_are_simulated_if_no_result_is_usable(monkeypatch: pytest.Monk
     assert full.dynamics is not None
     assert full.dynamics.inertia.modes > 4 * few.dynamics.inertia.modes
     assert math.isfinite(full.accuracy.bound)
+    assert full.unusable_note
+    assert "few plate modes" not in full.unusable_note
     for name in OUTPUTS:
         change = abs(getattr(few, name) / getattr(full, name) - 1.0)
         assert change < min(1.0, 0.2 * few.model_errors[name])

@@ -9,6 +9,7 @@ from derivation.scene.contact_law.corrections import stretching
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic.infinite_plate import wave_returned
 from derivation.scene.dynamic.mode_convergence import without_estimate
+from derivation.scene.dynamic.mode_count import count_of
 from derivation.scene.dynamic.runs import with_few_modes
 from derivation.scene.dynamic.stretching_error import deflections_of, stretching_error
 from derivation.scene.dynamic.time_in_contact import largest_deflection
@@ -38,3 +39,9 @@ def not_usable(law: ContactLaw, outputs: Sequence[str]) -> DynamicImpact | None:
     errors = stretching_error(law, few, deflections_of(law, few))
     useless = all(errors[name] >= CERTAIN for name in outputs)
     return without_estimate(few) if useless else None
+
+
+def has_few_modes(motion: DynamicImpact) -> bool:
+    """Return whether `not_usable` returned an impact; others have at least twice as many modes."""
+    given = motion.law.model.inertia.modes
+    return not given and 2 * motion.inertia.modes < count_of(motion.law)

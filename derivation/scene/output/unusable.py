@@ -45,6 +45,11 @@ def in_words(result: "Result") -> str:
         return ""
     why = _by_retardation(result) or f"{_by_stretching(result)} {_by_sphere(result)}".strip()
     listed = ", ".join(name.replace("_", " ") for name in names)
+    if why and result.dynamics is not None:
+        from derivation.scene.dynamic.not_usable import has_few_modes
+
+        few = has_few_modes(result.dynamics)
+        why += " As no result is usable, few plate modes are simulated." if few else ""
     return f"NOT USABLE: {listed}. {why}" if why else ""
 
 
@@ -94,12 +99,10 @@ def _by_stretching(result: "Result") -> str:
         thicker = " ".join(prefixed(thickness * part ** (-1.0 / THICKER), "m", 2))
         remedies.append(f"{name.replace('_', ' ')} {speed} or {thicker}")
     times, worst = deflections.largest / thickness, max(by_it.values())
-    few = math.isinf(result.accuracy.bound) and not model.inertia.modes
-    why = " As no result is usable, few plate modes are simulated." if few else ""
     return (
         f"The plate deflects by {times:.2g} thicknesses and stretches, which the model neglects "
         f"(error {up_to(worst)}). Speed or thickness for an error of about "
-        f"{percent(USABLE)}: {', '.join(remedies)}.{why}"
+        f"{percent(USABLE)}: {', '.join(remedies)}."
     )
 
 

@@ -38,7 +38,7 @@ def test_a_warning_is_given_if_the_falling_sphere_meets_the_vibrating_plate(
     flying = replace(
         history.problem, weight=gravity * history.problem.T / result.scene.impact.speed
     )
-    # On a plate at rest, the sphere would fall back after the time 2 v/g.
+    # On a static plate, the sphere would fall back after the time 2 v/g.
     aloft = 2.0 * result.restitution / flying.weight if gravity else 1e3
     times = np.linspace(0.0, min(aloft, 1e3), 5000)[1:]
     after = history.contacts[-1].after

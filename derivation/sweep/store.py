@@ -59,6 +59,7 @@ class Store:
         for left in folder.glob("*.temporary"):
             left.unlink()
         self.parts = sorted(self._batches(), key=lambda part: part.start)
+        self._complete_journal()
         self._last: tuple[PartFile, Any] | None = None
 
     @property
@@ -85,7 +86,7 @@ class Store:
         name = f"{start:010d}-{stop:010d}-{self.study.points_hash(points)}.parquet"
         self._write(name, content)
         self.parts.append(PartFile(start, stop, self.folder / name))
-        self._note(start, stop, stop - start, seconds)
+        self._note(start, stop, stop - start, f"{seconds:.3g} s")
 
     def renew(self, part: PartFile, numbers: list[int], content: bytes, seconds: float) -> None:
         """Replace points of a batch, given by their indices and computed in a run time [s]."""
@@ -97,7 +98,7 @@ class Store:
         both = pa.concat_tables([old, _parquet_table(content)])
         self._write(part.path.name, _parquet_content(both.take(indices)))
         self._last = None
-        self._note(part.start, part.stop, len(numbers), seconds)
+        self._note(part.start, part.stop, len(numbers), f"{seconds:.3g} s")
 
     def sort_batches(self) -> None:
         """Sort the batches, after all points have been computed."""
@@ -190,10 +191,22 @@ class Store:
                 temporary.unlink(missing_ok=True)
                 raise
 
-    def _note(self, start: int, stop: int, computed: int, seconds: float) -> None:
+    def _note(self, start: int, stop: int, computed: int, duration: str) -> None:
         """Add a line to the journal of computed batches."""
         with (self.folder / "journal.txt").open("a") as stream:
-            stream.write(f"{start} {stop} {computed} points {seconds:.3g} s\n")
+            stream.write(f"{start} {stop} {computed} points {duration}\n")
+
+    def _complete_journal(self) -> None:
+        """Add the lines of batches whose run was killed between the file and its line."""
+        journal = self.folder / "journal.txt"
+        lines = journal.read_text().splitlines(keepends=True) if journal.is_file() else []
+        whole = [line for line in lines if line.endswith("\n")]
+        if whole != lines:
+            self._write(journal.name, "".join(whole).encode())
+        noted = {tuple(line.split()[:2]) for line in whole}
+        for part in self.parts:
+            if (str(part.start), str(part.stop)) not in noted:
+                self._note(part.start, part.stop, part.stop - part.start, "unknown run time")
 
 
 def to_parquet(rows: Rows) -> bytes:

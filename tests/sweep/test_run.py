@@ -12,6 +12,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
 import distributed
 import numpy as np
@@ -57,6 +58,20 @@ def test_killed_run_is_continued(tmp_path: Path) -> None:
     assert (journal(out, POINTS) == 1).all()
     assert (counts(out, POINTS) == 1).all()
     assert out.read_bytes() == whole(tmp_path / "whole.csv")
+
+
+@pytest.mark.parametrize("written", [0, 6])
+def test_journal_is_completed_after_a_kill(written: int, tmp_path: Path) -> None:
+    """The run was killed after the file of a batch, before or within its line in the journal."""
+    out = tmp_path / "rows.csv"
+    keys: Any = {"impact.speed": f"0.5:2:{POINTS}"}
+    pc.sweep(scene(), keys, out=out)
+    file = out.with_name("rows.csv.parts") / "journal.txt"
+    *others, last = file.read_text().splitlines(keepends=True)
+    assert others
+    file.write_text("".join(others) + last[:written])
+    pc.sweep(scene(), keys, out=out)
+    assert (journal(out, POINTS) == 1).all()
 
 
 def test_interrupted_run_states_how_to_continue(tmp_path: Path) -> None:

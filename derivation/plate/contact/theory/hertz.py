@@ -50,7 +50,7 @@ def pressure() -> Formula:
     return Formula(
         "p",
         "p(r)",
-        r"Hertz pressure at $r \le a$",
+        r"Hertz pressure at $r \le a$, negative in compression",
         solution * shape,
         "Pa",
         "7",

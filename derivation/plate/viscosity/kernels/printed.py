@@ -124,14 +124,14 @@ def retardation_of_two() -> Claims:
 
 @named_routine
 def viscous_force() -> Claims:
-    """Return the force [N] of a contact with the elastic force P_e, where the plate is rigid."""
+    """Return the force [N] of a contact with the elastic force P_e, if the plate does not bend."""
     exact = delayed_force().by_rate
     return Claims((P_e, stiffness, rate, viscous_time), (), (exact,), (exact,), {})
 
 
 @named_routine
 def bent_viscous_force() -> Claims:
-    """Return the force [N] and dP_e/dt [N/s] where the plate bends elastically."""
+    """Return the force [N] and dP_e/dt [N/s] if the plate bends elastically."""
     force, elastic_rate = delayed_force().force, delayed_force().elastic_rate
     more = sp.Symbol("more", real=True)
     return Claims(

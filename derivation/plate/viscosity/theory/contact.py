@@ -133,7 +133,7 @@ of a static contact under P_e, and bending compliance of the plate."""
 
 @cache
 def delayed_force() -> DelayedForce:
-    """Return the force P = P_e + A_v dP_e/dt of a contact, on a rigid plate and on one that bends.
+    """Return the force P = P_e + A_v dP_e/dt of a contact, on a plate that does or does not bend.
 
     A plate that bends follows the force at once. Under P_e alone the contact would have the
     indentation of a static contact; bending under P - P_e adds the rest.

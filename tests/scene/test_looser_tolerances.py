@@ -4,19 +4,23 @@ from collections import Counter
 from typing import Any
 
 import numpy as np
+import platecontact as pc
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from derivation.engine.files import ROOT
 from derivation.scene import explain, kernels, read, simulate
 from derivation.scene.effects import BY_NAME, WHOLE_PLATE
 from derivation.scene.effects.effect import PlateEffect
 from derivation.scene.impact import selected_effects
 from derivation.scene.quasi_static import motion
+from derivation.scene.rows.rows import solve
 from derivation.scene.scene import Scene
 from derivation.scene.selection import omission_bounds
 
 TOLERANCES = [10.0**-n for n in range(1, 14)]
+EXAMPLE = ROOT / "derivation" / "scene" / "examples" / "paper.toml"
 NEWTON_STEPS = 12
 """Most steps of Newton's iteration for one largest radius; the limit of the loop is 60."""
 
@@ -64,6 +68,24 @@ def test_law_is_not_a_difference_of_the_whole_plate_and_a_part(scene: Scene, sho
                 assert other in actual.included
                 assert row.name in BY_NAME[other].contains
             assert row.included == (row.name in actual.law.effects)
+
+
+@pytest.mark.parametrize("rtol", TOLERANCES)
+def test_paper_s_law_is_not_selected_in_parts(rtol: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its function takes no longer than the selection, which needs the largest contact radius."""
+    scene = pc.load(EXAMPLE)
+    law, alone = selected_effects(scene, rtol)[1].law, simulate(scene, rtol=rtol)
+    assert law.of_paper
+
+    def too_slow(*_: Any, **__: Any) -> Any:
+        raise AssertionError("the largest radius is not needed")
+
+    monkeypatch.setattr(omission_bounds, "largest_radii", too_slow)
+    speeds = scene.impact.speed * np.geomspace(0.1, 1.0, 5)
+    actual = solve(scene, {"impact.speed": speeds}, rtol)
+    assert (actual.status == "finished").all()
+    assert (actual.bound <= rtol).all()
+    assert actual.results["contact_time"][-1] == alone.contact_time
 
 
 def test_disabled_part_of_the_plate_stays_disabled() -> None:

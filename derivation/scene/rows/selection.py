@@ -58,6 +58,8 @@ class Group:
 
     def error_on(self, outputs: Sequence[str]) -> Array:
         """Return the bound on the change of other outputs than those of the tolerance."""
+        if not self.omitted:
+            return np.zeros(len(self.rows))
         return errors_of(state_of(self.law), self.omitted, outputs)[:, 0]
 
 
@@ -130,7 +132,9 @@ def _certain_effects(
 ) -> dict[frozenset[str], list[Rows]]:
     """Return the rows by the effects that they certainly include."""
     rows = np.arange(len(rtol))
-    groups = groups_of(model, len(rtol)) if rtol.min() == rtol.max() else None
+    groups = None
+    if given.left(given.included) and rtol.min() == rtol.max():
+        groups = groups_of(model, len(rtol))
     if groups is None:
         return {given.included: [rows]}
     first, group, clear = groups

@@ -1,6 +1,7 @@
 """Warnings of many impacts on quasi-static plates; only rows near a limit are examined."""
 
 from collections.abc import Callable, Iterator, Mapping
+from operator import attrgetter
 from types import SimpleNamespace
 from typing import Any
 
@@ -36,6 +37,7 @@ _MODEL = (
     "yield_stress", "plate_yield_stress",
 )  # fmt: skip
 """Numbers of the model that warnings use."""
+_error_columns = attrgetter(*(f"{name}_error" for name in ImpactErrors._fields))
 Mask = NDArray[np.bool_]
 Texts = Callable[[SimpleNamespace], tuple[str, ...]]
 
@@ -96,7 +98,7 @@ def _numbers(law: ContactLaw, results: Mapping[str, Array]) -> dict[str, Array]:
 
 def _errors(one: Any) -> ImpactErrors:
     """Return the relative errors of the results of a row, or of all rows [1]."""
-    return ImpactErrors(*(getattr(one, f"{name}_error") for name in ImpactErrors._fields))
+    return ImpactErrors(*_error_columns(one))
 
 
 def _singles(

@@ -12,7 +12,7 @@ from functools import partial
 from typing import Any
 
 from derivation.scene.contact_law.law import ContactLaw
-from derivation.scene.effects import EFFECTS
+from derivation.scene.effects import EFFECTS, PAPER
 from derivation.scene.effects.effect import Effect
 from derivation.scene.errors import SceneError
 from derivation.scene.input.table import in_words
@@ -45,6 +45,9 @@ class Selection:
         one.
     blocked
         For each effect that cannot be included, the disabled effect that it requires.
+    whole
+        Whether all effects of the paper's law are included, because its function is faster than
+        the selection of some of them.
     """
 
     state: LargestContact
@@ -55,6 +58,7 @@ class Selection:
     reasons: Mapping[str, str]
     required: Mapping[str, str]
     blocked: Mapping[str, str]
+    whole: bool
 
     @property
     def included(self) -> frozenset[str]:
@@ -79,7 +83,7 @@ class Candidates:
         with another effect, the name of that one.
     open_
         The effects that the selection decides on.
-    choice, reasons, blocked
+    choice, reasons, blocked, whole
         As in `Selection`.
     """
 
@@ -92,6 +96,7 @@ class Candidates:
     choice: Mapping[str, Any]
     reasons: Mapping[str, str]
     blocked: Mapping[str, str]
+    whole: bool
 
     def left(self, included: frozenset[str]) -> list[Effect]:
         """Return the effects that the selection decides on and that are not yet included."""
@@ -165,10 +170,13 @@ def candidates_of(model: Model, wanted: Mapping[str, Any]) -> Candidates:
     for name in sorted(included):
         required |= dict.fromkeys(along[name] - included, name)
         included |= along[name]
+    whole = free | included == PAPER
+    if whole:
+        included |= PAPER
     open_ = [e for e in present if e.name not in included and choice[e.name] is not False]
     return Candidates(
         model, tuple(present), along, frozenset(included), required, tuple(open_), choice, reasons,
-        blocked,
+        blocked, whole,
     )  # fmt: skip
 
 
@@ -215,8 +223,9 @@ def select(
     left = (effect for effect in given.present if effect.name not in included)
     sizes |= {effect.name: error_of(state, [effect], outputs) for effect in left}
     return Selection(
-        state, tuple(open_), error, sizes, given.choice, given.reasons, required, blocked
-    )
+        state, tuple(open_), error, sizes, given.choice, given.reasons, required, blocked,
+        given.whole,
+    )  # fmt: skip
 
 
 def _disabled(effect: Effect, wanted: Mapping[str, Any]) -> bool:

@@ -74,8 +74,10 @@ def test_law_is_not_a_difference_of_the_whole_plate_and_a_part(scene: Scene, sho
 def test_paper_s_law_is_not_selected_in_parts(rtol: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """Its function takes no longer than the selection, which needs the largest contact radius."""
     scene = pc.load(EXAMPLE)
-    law, alone = selected_effects(scene, rtol)[1].law, simulate(scene, rtol=rtol)
-    assert law.of_paper
+    selected, alone = selected_effects(scene, rtol)[1], simulate(scene, rtol=rtol)
+    assert selected.law.of_paper
+    needed = not any(row.reason.startswith("not needed") for row in selected.rows)
+    assert needed == (rtol <= 1e-2)
 
     def too_slow(*_: Any, **__: Any) -> Any:
         raise AssertionError("the largest radius is not needed")

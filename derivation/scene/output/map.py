@@ -1,4 +1,4 @@
-"""Draws for which a/h and h/b the effect selection includes each effect, with the scene marked.
+"""Draws for which a/h and h/b the tolerance needs each effect, with the scene marked.
 
 Sphere, materials, edge and tolerance are those of the scene. Thickness and speed vary; the speed is
 that which gives the contact radius on a quasi-static plate. For each point the effects are selected
@@ -38,7 +38,7 @@ OUTSIDE = "0.88"
 TICKS = 9.0
 """Distance of the ticks on a line [pt]."""
 MOST, SIDE = 100.0, 1.001
-"""Largest ratio in the map, and smallest ratio where an effect is included."""
+"""Largest ratio in the map, and smallest ratio where an effect is needed."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class Grid:
         h/b and a/h, including those of the scene [1].
     ratios
         For each effect, its largest change of the results over the tolerance [1]: above 1 where it
-        is included, below 1 where it is omitted, NaN outside the range of the contact law.
+        is needed, below 1 where it is not, NaN outside the range of the contact law.
     """
 
     thicknesses: Array
@@ -115,18 +115,18 @@ def _speed(model: Model, a: float) -> float:
 
 
 def _ratio(selection: Selection, name: str, rtol: float) -> float:
-    """Return the change by an effect over the tolerance, above 1 if the effect is included."""
+    """Return the change by an effect over the tolerance, above 1 if the effect is needed."""
     if selection.reasons[name]:
         return math.nan
     size = selection.sizes.get(name, math.inf)
     ratio = min(size / rtol, MOST)
     if selection.choice[name] is False:
         return ratio
-    return max(ratio, SIDE) if name in selection.included else min(ratio, 1.0 / SIDE)
+    return max(ratio, SIDE) if name in selection.needed else min(ratio, 1.0 / SIDE)
 
 
 def lines(map_grid: Grid) -> dict[tuple[str, ...], Array]:
-    """Return the ratios of the effects, grouped if they are included at the same points."""
+    """Return the ratios of the effects, grouped if they are needed at the same points."""
     groups: dict[bytes, list[str]] = {}
     for name, ratio in map_grid.ratios.items():
         groups.setdefault((ratio > 1.0).tobytes(), []).append(name)
@@ -177,7 +177,7 @@ def figure(result: Result, rtol: float) -> "Figure":
 
 
 def _line(axes: "Axes", map_grid: Grid, ratio: Array, colour: str, label: str) -> None:
-    """Draw the line beyond which an effect is included, with ticks and shading on that side."""
+    """Draw the line beyond which an effect is needed, with ticks and shading on that side."""
     from matplotlib.patheffects import withTickedStroke
 
     values = np.log(np.maximum(ratio, 1.0 / MOST))

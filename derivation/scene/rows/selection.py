@@ -132,9 +132,9 @@ def _certain_effects(
 ) -> dict[frozenset[str], list[Rows]]:
     """Return the rows by the effects that they certainly include."""
     rows = np.arange(len(rtol))
-    groups = None
-    if given.left(given.included) and rtol.min() == rtol.max():
-        groups = groups_of(model, len(rtol))
+    if given.whole:
+        return {PAPER: [rows]}
+    groups = groups_of(model, len(rtol)) if rtol.min() == rtol.max() else None
     if groups is None:
         return {given.included: [rows]}
     first, group, clear = groups

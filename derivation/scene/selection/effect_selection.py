@@ -301,8 +301,8 @@ def _row(
         why = f"required by {selection.required[name]}"
     elif name in selection.blocked:
         why = f"cannot be included, because the scene disables {selection.blocked[name]}"
-    elif included and selection.whole:
-        why = "the function of the whole plate takes no longer than a part of it"
+    elif included and name not in selection.needed:
+        why = f"not needed to meet {tolerance}, but takes no extra time"
     elif included:
         why = f"needed to meet {tolerance}"
     else:

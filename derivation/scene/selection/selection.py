@@ -45,9 +45,9 @@ class Selection:
         one.
     blocked
         For each effect that cannot be included, the disabled effect that it requires.
-    whole
-        Whether all effects of the paper's law are included, because its function is faster than
-        the selection of some of them.
+    needed
+        Names of the included effects without which the tolerance is not met. The others are
+        included because one function computes them all in less time.
     """
 
     state: LargestContact
@@ -58,7 +58,7 @@ class Selection:
     reasons: Mapping[str, str]
     required: Mapping[str, str]
     blocked: Mapping[str, str]
-    whole: bool
+    needed: frozenset[str]
 
     @property
     def included(self) -> frozenset[str]:
@@ -83,8 +83,11 @@ class Candidates:
         with another effect, the name of that one.
     open_
         The effects that the selection decides on.
-    choice, reasons, blocked, whole
+    choice, reasons, blocked
         As in `Selection`.
+    whole
+        Whether the scene allows just the effects of the paper's law. All are included, because
+        the function of this law is faster than a selection.
     """
 
     model: Model
@@ -170,13 +173,10 @@ def candidates_of(model: Model, wanted: Mapping[str, Any]) -> Candidates:
     for name in sorted(included):
         required |= dict.fromkeys(along[name] - included, name)
         included |= along[name]
-    whole = free | included == PAPER
-    if whole:
-        included |= PAPER
     open_ = [e for e in present if e.name not in included and choice[e.name] is not False]
     return Candidates(
         model, tuple(present), along, frozenset(included), required, tuple(open_), choice, reasons,
-        blocked, whole,
+        blocked, whole=free | included == PAPER,
     )  # fmt: skip
 
 
@@ -220,12 +220,21 @@ def select(
         if effect.name in blocked:
             part = blocked[effect.name]
             effect.check_omitted(part, error_of(state, [effect], outputs), rtol)
-    left = (effect for effect in given.present if effect.name not in included)
-    sizes |= {effect.name: error_of(state, [effect], outputs) for effect in left}
+    sizes |= _sizes_of_others(given, state, outputs)
+    if given.whole:
+        state, open_, error = state_of(ContactLaw(given.model, PAPER)), [], 0.0
+        sizes |= _sizes_of_others(given, state, outputs)
     return Selection(
-        state, tuple(open_), error, sizes, given.choice, given.reasons, required, blocked,
-        given.whole,
-    )  # fmt: skip
+        state, tuple(open_), error, sizes, given.choice, given.reasons, required, blocked, included
+    )
+
+
+def _sizes_of_others(
+    given: Candidates, state: LargestContact, outputs: Sequence[str]
+) -> dict[str, float]:
+    """Return the bounds on the change if effects that are not included are omitted, by name [1]."""
+    others = (effect for effect in given.present if effect.name not in state.law.effects)
+    return {effect.name: error_of(state, [effect], outputs) for effect in others}
 
 
 def _disabled(effect: Effect, wanted: Mapping[str, Any]) -> bool:

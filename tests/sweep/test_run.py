@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import distributed
+import kills
 import numpy as np
 import platecontact as pc
 import pytest
@@ -58,6 +59,19 @@ def test_killed_run_is_continued(tmp_path: Path) -> None:
     assert (journal(out, POINTS) == 1).all()
     assert (counts(out, POINTS) == 1).all()
     assert out.read_bytes() == whole(tmp_path / "whole.csv")
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".nc"])
+def test_run_killed_at_any_file_operation_is_continued(suffix: str, tmp_path: Path) -> None:
+    command = [sys.executable, str(Path(kills.__file__)), str(tmp_path), suffix]
+    paths = os.pathsep.join((str(ROOT), str(Path(kills.__file__).parent)))
+    output = subprocess.run(
+        command, env=os.environ | {"PYTHONPATH": paths}, cwd=ROOT, check=True, text=True,
+        stdout=subprocess.PIPE, timeout=PATIENCE,
+    ).stdout  # fmt: skip
+    actual = json.loads(output.splitlines()[-1])
+    assert actual["failures"] == []
+    assert actual["kills"] > 20
 
 
 @pytest.mark.parametrize("written", [0, 6])

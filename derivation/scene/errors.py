@@ -99,6 +99,10 @@ class EndlessError(IncompleteError):
     """The error of a contact that takes more time steps than are allowed."""
 
 
+class StiffUnloadingError(IncompleteError):
+    """The error of a yielded contact that unloads more stiffly than short plate modes respond."""
+
+
 class ToleranceError(SceneError):
     """The error of a tolerance that the results do not meet.
 

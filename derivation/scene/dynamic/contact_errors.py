@@ -13,6 +13,7 @@ from derivation.scene.errors import (
     EndlessError,
     IncompleteError,
     Slower,
+    StiffUnloadingError,
     WideContactError,
     wide_contact,
 )
@@ -166,15 +167,21 @@ def no_solution(
                 why = "is not circular, because the plate is more curved than the sphere"
                 remedy = advice_for_curvature(problem)
                 if _circular_without_yield(problem, min(a, beyond), bent):
-                    why = (
-                        "has no solution, because the yielded contact unloads more stiffly than "
-                        "the short modes of the plate respond"
-                    )
-                    modes = problem.contact.modes
-                    remedy = f"set inertia.modes to fewer than {modes.first.size}"
-                    if modes.first.size < modes.omega.size:
-                        remedy += ', or inertia.branches to "A0"'
+                    return _stiff_unloading(problem, time)
     return IncompleteError(f"the contact at {time:.6g} s {why}", remedy)
+
+
+def _stiff_unloading(problem: DynamicProblem, time: float) -> StiffUnloadingError:
+    """Return the error of a yielded contact that is not circular with so many modes."""
+    modes = problem.contact.modes
+    remedy = f"set inertia.modes to at most {max(1, modes.first.size // 2)}"
+    if modes.first.size < modes.omega.size:
+        remedy += ', or inertia.branches to "A0"'
+    return StiffUnloadingError(
+        f"the contact at {time:.6g} s has no solution, because the yielded contact unloads more "
+        "stiffly than the short modes of the plate respond",
+        remedy,
+    )
 
 
 def advice_for_curvature(problem: DynamicProblem) -> str:

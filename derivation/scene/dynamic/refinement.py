@@ -37,7 +37,7 @@ from derivation.scene.dynamic.stretching_error import exceeds_modes
 from derivation.scene.dynamic.time_in_contact import FEWER, nodes_for
 from derivation.scene.dynamic.wave_motion import DynamicImpact
 from derivation.scene.dynamic.wave_problem import problem_of
-from derivation.scene.errors import SceneError
+from derivation.scene.errors import SceneError, StiffUnloadingError
 
 TOLERANCE_FRACTION, KEPT = 1.0 / 3.0, 0.75
 """Largest accepted error by omitted modes over the tolerance; largest one by omitted modes and
@@ -138,7 +138,7 @@ class Refinement:
 
     def _refined(self, first: FirstRun, count: int) -> DynamicImpact:
         """Return the last of the runs, each with twice as many modes as the one before it."""
-        law, rough, close = self.law, first.run, time_tolerance(self.goal)
+        law, rough, close, fewest = self.law, first.run, time_tolerance(self.goal), count
         runs: list[DynamicImpact] = []
         most: float | None = None
         while most != 0.0:
@@ -146,10 +146,13 @@ class Refinement:
             try:
                 coarse = rough.impact_history
                 run = run_with(law, count, self.budget, close, coarse=coarse, most=most)
-            except SceneError:
-                if not runs:
-                    raise
-                break  # the last run was complete
+            except SceneError as error:
+                if runs:  # the last run was complete
+                    break
+                stiff = isinstance(error, StiffUnloadingError)
+                if stiff and (estimated := self._unrefined(first, fewest)):
+                    return estimated
+                raise
             if not run.inertia.complete:
                 unstarted = run.impact_history.problem is rough.impact_history.problem
                 return runs[-1] if runs else (first.estimated if unstarted else None) or run
@@ -161,6 +164,13 @@ class Refinement:
                 return self._of_chosen_modes(rough, count)
             most = self._limit_of_next(runs, count, most)
         return runs[-1]
+
+    def _unrefined(self, first: FirstRun, count: int) -> DynamicImpact | None:
+        """Return the first run with an error estimate by coarser ones; None if they give none."""
+        if first.estimated:
+            return first.estimated
+        compared = self._by_coarser(first.run, count)
+        return compared[0] if compared else None
 
     def _limit_of_next(
         self, runs: list[DynamicImpact], count: int, most: float | None
@@ -260,7 +270,7 @@ class Refinement:
         return largest_change(run, compare(coarse, run))
 
     def _by_coarser(
-        self, run: DynamicImpact, count: int, work: float
+        self, run: DynamicImpact, count: int, work: float = math.inf
     ) -> tuple[DynamicImpact | None, DynamicImpact] | None:
         """Return the first run with an error estimate by coarser ones, less work than a finer one.
 
@@ -274,7 +284,7 @@ class Refinement:
         Parameters
         ----------
         work
-            Expected work of the finer run.
+            Expected work of the finer run; infinite if it fails.
         """
         law, left = self.law, self.budget.left
         if law.model.inertia.modes or count < FOURTH or not fast(law, count):

@@ -106,7 +106,10 @@ class Result:
 
     @property
     def max_tensile_stress(self) -> float:
-        """Largest tensile stress on the axis of the back face [Pa], without a tolerance."""
+        """Largest tensile stress on the back face, on the axis [Pa]; below 0 if compressive.
+
+        No tolerance applies to it. Its error, and whether it is static, are in `tensile_stress`.
+        """
         return self.tensile_stress.value
 
     @cached_property

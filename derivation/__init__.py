@@ -11,6 +11,8 @@ import os
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    import sympy as sp
+
     from derivation.engine.errata.text import TextDiagnosis
     from derivation.engine.formula.record import Record
 
@@ -55,7 +57,7 @@ def formula(name: str) -> "Record":
 
 
 def diagnose(
-    name: str, text: str, latex: bool = False, at: str = "", digits: int = 50
+    name: str, text: "str | sp.Expr", latex: bool = False, at: str = "", digits: int = 50
 ) -> "TextDiagnosis":
     """Compare a formula of your own with the derived one of the same name.
 
@@ -64,8 +66,8 @@ def diagnose(
     name
         Name of the derived formula, for example ``K_j``.
     text
-        Your formula; it is parsed, not executed. For a sum over modes, give one term or
-        ``Sum(..., (j, 1, oo))``.
+        Your formula in SymPy syntax, which is parsed, not executed; or a SymPy expression. For a
+        sum over modes, give one term or ``Sum(..., (j, 1, oo))``.
     latex
         Whether `text` is LaTeX instead of SymPy syntax.
     at
@@ -96,4 +98,4 @@ def diagnose(
     """
     from derivation.plate import derived
 
-    return derived.diagnose(name, text, latex, at, digits)
+    return derived.diagnose(name, str(text), latex, at, digits)

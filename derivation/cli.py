@@ -1,7 +1,7 @@
 """The command `platecontact`: each command reads its arguments and makes one call.
 
-Exit status: 0 success, 1 a check failed or formulas differ or an impact is incomplete, 2 invalid
-input or a file that cannot be written or Ctrl-C, 141 the reader of the output has closed the pipe.
+Exit status: 0 success; 1 a check failed, formulas differ, or an impact is incomplete; 2 invalid
+input, a file that cannot be written, or Ctrl-C; 141 the reader of the output has closed the pipe.
 """
 
 import sys

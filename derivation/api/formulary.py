@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
+from typing import TYPE_CHECKING
 
 from derivation.engine.emit import own_formula
 from derivation.engine.errata.findings import Finding
@@ -14,6 +15,9 @@ from derivation.engine.rewrite.several_variables import SeveralCheck
 from derivation.engine.rewrite.stabilise import Stable
 from derivation.plate import derived
 from derivation.scene.output.html import html_table
+
+if TYPE_CHECKING:
+    import sympy as sp
 
 
 @dataclass(frozen=True)
@@ -94,7 +98,9 @@ def misprints() -> Findings:
     return Findings(derived.misprints())
 
 
-def rewrite(formula: str, variable: str = "x", where: Sequence[str] = ()) -> Rewritten:
+def rewrite(
+    formula: "str | sp.Expr", variable: str = "x", where: str | Sequence[str] = ()
+) -> Rewritten:
     """Find a numerically stable form of a formula, and test its code.
 
     The function returns NaN outside the range in which it was tested. Points at which the formula
@@ -103,13 +109,14 @@ def rewrite(formula: str, variable: str = "x", where: Sequence[str] = ()) -> Rew
     Parameters
     ----------
     formula
-        The formula in SymPy syntax; it is parsed, not executed. Each factor of a formula of several
-        variables must depend on one product of powers of them, such as ``a/b``.
+        The formula in SymPy syntax, which is parsed, not executed; or a SymPy expression, whose
+        assumptions are ignored. Each factor of a formula of several variables must depend on one
+        product of powers of them, such as ``a/b``.
     variable
         Name of the variable of a formula that contains none.
     where
-        Conditions on the variables, such as ``"-1 < nu < 0.5"``. All variables are positive unless
-        a condition allows other numbers.
+        Condition or conditions on the variables, such as ``"-1 < nu < 0.5"``. All variables are
+        positive unless a condition allows other numbers.
 
     Returns
     -------
@@ -131,4 +138,5 @@ def rewrite(formula: str, variable: str = "x", where: Sequence[str] = ()) -> Rew
     >>> "R" in pc.rewrite("R - sqrt(R**2 - a**2)").source
     True
     """
-    return Rewritten(*own_formula.rewrite_text(formula, variable, where))
+    conditions = (where,) if isinstance(where, str) else where
+    return Rewritten(*own_formula.rewrite_text(str(formula), variable, conditions))

@@ -34,8 +34,16 @@ class Command(TyperCommand):
         return [piece.strip("{}") for piece in super().collect_usage_pieces(ctx)]
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Replace former names and reject repeated options before the arguments are parsed."""
-        return super().parse_args(ctx, with_present_names(self, ctx, args))
+        """Replace former names and reject repeated options before the arguments are parsed.
+
+        The parser does not say in which command an option lacks its value.
+        """
+        try:
+            return super().parse_args(ctx, with_present_names(self, ctx, args))
+        except TyperException as error:
+            if not getattr(error, "ctx", None):
+                setattr(error, "ctx", ctx)  # noqa: B010 (not known to the type)
+            raise
 
     def invoke(self, ctx: Any) -> Any:
         """Run the command; an error of an argument names the option as it was typed."""

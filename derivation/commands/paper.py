@@ -49,7 +49,11 @@ def _listed(files: Sequence[Path]) -> Iterator[str]:
 def generate(
     check: Annotated[
         bool,
-        typer.Option("--check", help="Only compare: list the files that differ, write nothing."),
+        typer.Option(
+            "--check",
+            help="Only compare: list the files that differ, write nothing. The exit status is 1 if "
+            "a file differs.",
+        ),
     ] = False,
     out: Annotated[
         Path | None,
@@ -113,7 +117,12 @@ def _scene_code(scene: Path, out: Path | None, check: bool) -> None:
 def report(
     pdf: Annotated[bool, typer.Option("--pdf/--no-pdf", help="Also compile the PDF.")] = True,
     check: Annotated[
-        bool, typer.Option("--check", help="Only compare with the committed files, write nothing.")
+        bool,
+        typer.Option(
+            "--check",
+            help="Only compare with the committed files, write nothing. The exit status is 1 if a "
+            "file differs.",
+        ),
     ] = False,
     section: Annotated[
         list[str] | None,

@@ -32,9 +32,10 @@ def load(folder: Path) -> Paper:
     """
     path = folder.resolve()
     if not (path / "paper.py").is_file():
+        new = "NAME" if path.exists() else folder
         raise PaperError(
             f"--paper: expected a folder with a file paper.py, got {folder}; "
-            f"create one with `platecontact new {folder}`"
+            f"create one with `platecontact new {new}`"
         )
     name = PREFIX + "".join(c if c.isalnum() else "_" for c in path.name)
     others = {known for known in sys.modules if not known.startswith(f"{name}.")}

@@ -61,11 +61,6 @@ class Result:
         yield stress in a plastic contact, only the elastic part in a viscoelastic contact. Omitted
         effects may change it by up to three times as much as the other results, and an omitted
         yield more: its error includes by how much it exceeds 1.6 times the yield stress.
-    comparison
-        The paper's motion, for comparison; None unless `effects.compare_paper_motion` is true.
-    max_tensile_stress
-        Largest tensile stress on the back face, on the axis [Pa]; below 0 if compressive. Its
-        error, and whether it is static, are in `tensile_stress`.
     accuracy
         Method, and bound of the relative error.
     model_error
@@ -106,7 +101,10 @@ class Result:
 
     @property
     def max_tensile_stress(self) -> float:
-        """Largest tensile stress on the axis of the back face [Pa], without a tolerance."""
+        """Largest tensile stress on the back face, on the axis [Pa]; below 0 if compressive.
+
+        No tolerance applies to it. Its error, and whether it is static, are in `tensile_stress`.
+        """
         return self.tensile_stress.value
 
     @cached_property
@@ -148,7 +146,7 @@ class Result:
 
     @cached_property
     def comparison(self) -> "Comparison | None":
-        """The paper's motion, for comparison; None unless the scene requests it."""
+        """The paper's motion; None unless `effects.compare_paper_motion` is true."""
         if not self.scene.effects.compare_paper_motion:
             return None
         from derivation.scene.output.comparison import compare

@@ -39,7 +39,7 @@ def summaries() -> Iterator[tuple[str, str]]:
 def exit_status() -> str:
     """Return the exit statuses, as the module of the command line states them."""
     said = " ".join((inspect.getdoc(cli) or "").partition("Exit status:")[2].split())
-    rows = (part.strip(" .").partition(" ") for part in said.split(","))
+    rows = (part.strip(" .").partition(" ") for part in said.split(";"))
     return table(("exit status", "meaning"), ((f"`{number}`", text) for number, _, text in rows))
 
 

@@ -1,8 +1,11 @@
 """Python entries: the public API, the generated functions, the exceptions."""
 
 import inspect
+import re
 from collections.abc import Iterable, Iterator
+from functools import cached_property
 from importlib import import_module
+from typing import Any
 
 import platecontact as pc
 
@@ -17,6 +20,14 @@ EXCEPTIONS = (
     "derivation.engine.failed.FailedError",
 )
 """Exceptions that a user can meet."""
+
+RETURNED = (
+    "derivation.scene.explanation.Explanation",
+    "derivation.scene.indentation.StaticContact",
+    "derivation.scene.output.history.History",
+    "derivation.scene.output.history.DynamicHistory",
+)
+"""Classes of objects that functions of `platecontact` return, besides its own classes."""
 
 MORE = (
     "edge_modes",
@@ -37,6 +48,7 @@ def api() -> str:
     for title, names in (("Functions", functions), ("Classes", classes)):
         parts += [f"## {title}", _summary("platecontact", names)]
         parts += [_entry("platecontact", name) for name in names]
+    parts += ["## Returned objects", *(_entry(*name.rsplit(".", 1)) for name in RETURNED)]
     return "\n\n".join(parts)
 
 
@@ -108,7 +120,19 @@ def _entry(module: str, name: str) -> str:
     if not inspect.isclass(value):
         return rst(f".. autofunction:: {module}.{name}")
     kind = "exception" if issubclass(value, BaseException) else "class"
-    # The keys of a table of the scene are in the reference of the scene file.
-    methods = any(inspect.isfunction(each) for key, each in vars(value).items() if key[0] != "_")
-    members = "\n   :members:" if methods and module == "generated.prepared_plate" else ""
+    names = ", ".join(_members(value))
+    members = f"\n   :members: {names}" if names else ""
     return rst(f".. auto{kind}:: {module}.{name}(){members}")
+
+
+def _members(value: type[Any]) -> Iterator[str]:
+    """Yield the public methods and properties that the docstring of a class does not list."""
+    listed = inspect.getdoc(value) or ""
+    for name, each in vars(value).items():
+        public = inspect.isfunction(each) or isinstance(each, (property, cached_property))
+        if (
+            public
+            and not name.startswith("_")
+            and not re.search(rf"^{name}$", listed, re.MULTILINE)
+        ):
+            yield name

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import platecontact
 import pytest
+import sympy as sp
 
 from derivation.engine.files import ROOT
 from derivation.scene.input.example_scenes import copy
@@ -49,6 +50,15 @@ def test_formulas_and_digits_show_themselves_as_text_and_in_notebooks() -> None:
     digits = platecontact.reference(scene, digits=20)
     assert str(digits).startswith("contact time [s]\n  0.00880816")
     assert str(digits) in digits._repr_html_()
+
+
+def test_formulas_may_be_sympy_expressions() -> None:
+    x = sp.Symbol("x")
+    stable = platecontact.rewrite((x - sp.sin(x)) / x**3, where="x < 1")
+    assert stable.source == platecontact.rewrite("(x - sin(x))/x**3", where=["x < 1"]).source
+    force = platecontact.formula("P").expression
+    assert platecontact.diagnose("P", force).verdict == "equal"
+    assert platecontact.diagnose("P", 2 * force).verdict == "different"
 
 
 def test_unknown_name_raises_an_attribute_error() -> None:

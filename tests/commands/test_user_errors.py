@@ -106,6 +106,8 @@ def test_completion_script_is_printed_and_completes() -> None:
         (["check", "hardcases"], "hard-cases'?"),
         (["check", "--digits", "30", "timing"], "timing"),
         (["check", "search", "--sed", "3"], "see `platecontact check search --help`"),
+        (["check", "search", "--time"], "see `platecontact check search --help`"),
+        (["indent", PAPER, "--force"], "see `platecontact indent --help`"),
         (["report", "--check", "--fragment", "K_j"], "--check"),
         (["report", "--section", "law", "--fragment", "K_j"], "--section"),
         (["report", "--fragment", "K_j", "--force"], "--force"),

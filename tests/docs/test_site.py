@@ -74,6 +74,8 @@ def test_every_command_and_function_is_described() -> None:
     for name in pc.__all__:
         assert re.search(rf"auto\w+:: platecontact\.{name}\b", part("api"))
     assert "autofunction:: generated.contact_law.indentation" in part("functions")
+    assert re.search(r"members: .*\bhistory\b.*\bbound_of\b", part("api"))
+    assert "members: contact_time" in part("functions")  # of the paper's motion
     for status in ("0", "1", "2"):
         assert f"| `{status}` |" in part("exit_status")
 

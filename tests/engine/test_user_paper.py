@@ -267,9 +267,9 @@ def test_hard_cases_are_compared_with_recorded_references(folder: Path, tmp_path
 
 
 def test_invalid_papers_are_rejected(folder: Path, tmp_path: Path) -> None:
-    assert "expected a folder with a file paper.py" in run(
-        "derive", "--paper", str(tmp_path), home=tmp_path, status=2
-    )
+    said = run("derive", "--paper", str(tmp_path), home=tmp_path, status=2)
+    assert "expected a folder with a file paper.py" in said
+    assert "`platecontact new NAME`" in said  # `new` rejects a folder with other files
     assert "expected an empty folder" in run("new", str(folder), home=tmp_path, status=2)
     for text, message in (
         ("import nothing_of_that_name", "paper.py, line 1: ModuleNotFoundError: No module"),

@@ -35,6 +35,7 @@ EXPECTED = {
     "outputs": "a list of contact_time, max_indentation, max_force, max_contact_radius and "
     "restitution",
     "lame_lambda": f"a number from {-LARGEST_NUMBER:g} to {LARGEST_NUMBER:g}",
+    "gravity": f"a number from 0 to {LARGEST_NUMBER:g}",
     "loss_factor": "a number from 0 to below 2 (2 is critical damping)",
     "poissons_ratio": "a number above -1 and below 0.5",
     "rtol": "a number from 1e-13 to 1",

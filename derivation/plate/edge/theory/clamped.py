@@ -7,8 +7,8 @@ With n = nu/(1 - nu) and D the flexural rigidity, at the edge of a plate in bend
 because a clamp on the whole edge also prevents thinning of the plate there. A strip in plane
 strain, clamped at its end and bent far away, gives both constants, chi = n^2 turn(n) and
 G = level(n), computed by spectral elements (`edge.strip`) and fitted. Both are the work of n z^2/2
-on the shear stress at the clamp: chi under a moment, G under a shear force (Betti), so that chi is
-proportional to n^2. If the mean of w were 0, G would be 1/6.
+on the shear stress at the clamp: chi under a moment, G under a shear force (Betti), so that chi has
+the factor n^2. If the mean of w were 0, G would be 1/6.
 
 The state of bending with that w, u = k r z and
 
@@ -74,7 +74,7 @@ def indentation_loss() -> sp.Expr:
 
 @cache
 def strip() -> Proof:
-    """Prove the strip's state far from its end, and that chi is n^2 times a constant."""
+    """Prove the strip's state far from its end, from which chi has the factor n^2."""
     x = sp.Symbol("x", real=True)
     E = PLANE_STRAIN_MODULUS
     u, w = x * z, -(x**2) / 2 - RATIO * z**2 / 2

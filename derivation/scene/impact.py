@@ -163,10 +163,10 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
         *motion_warnings(moving, contact_time, fraction, dynamic, errors=stated),
         *_yield_warnings(law, a, pressure, pressure_error),
         *stress_warnings(stress.value, strength, yield_stress, stress_error, motion is None),
+        *ambiguity_warnings(scene),
     )
     if motion is not None:
         speeds = [touch.relative_approach_speed for touch in motion.inertia.contacts]
-        warnings += ambiguity_warnings(scene, len(speeds))
         warnings += grazing_warnings(speeds, motion.least)
         warnings += duration_warnings(motion.inertia.jump)
         jumps = (*jump_warnings(law, motion), *unlike_jump_warnings(law, motion))

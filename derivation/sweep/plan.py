@@ -31,6 +31,8 @@ MOST_LATIN = 10**6
 METHODS = ("random", "latin-hypercube", "sobol")
 BLOCK = 4096
 """Number of points of a random sample that are drawn from one seed."""
+LEAST_BASE = 4
+"""Smallest number of base points of sensitivity indices: the scatter of two shows no interval."""
 LEAST_PROBABILITY = 2.0**-40
 """Smallest distance of probabilities from 0 and 1, where a normal distribution has no value."""
 
@@ -285,12 +287,12 @@ def saltelli(distributions: Distributions, base: int, seed: int) -> SaltelliPlan
     ------
     SceneError
         If a key excludes another one, the seed is negative, or the number of base points is not a
-        power of two or is too large.
+        power of two, below `LEAST_BASE` or too large.
     """
     _check_keys(list(distributions))
     made = SaltelliPlan(dict(distributions), base, seed)
     _check_size(base, "give the sample another size")
-    _check_power(base, f"base points, each of which makes {made.each} runs")
+    _check_power(base, f"base points, each of which makes {made.each} runs", LEAST_BASE)
     return made
 
 
@@ -322,10 +324,10 @@ def _check_size(size: int, remedy: str) -> None:
         raise SceneError(f"sweep: expected 1 to {MOST_POINTS:,} points, got {size:,}; {remedy}")
 
 
-def _check_power(size: int, what: str) -> None:
+def _check_power(size: int, what: str, least: int = 2) -> None:
     """Raise an error unless the size is a power of two, which balances a Sobol sequence."""
-    if size & (size - 1) or size < 2:
-        below = max(2, 2 ** (size.bit_length() - 1))
+    if size & (size - 1) or size < least:
+        below = max(least, 2 ** (size.bit_length() - 1))
         raise SceneError(
             f"sample: expected a power of two of {what}, got {size}; take {below} or {2 * below}"
         )

@@ -342,8 +342,27 @@ def test_warning_if_several_values_of_the_constant_give_the_restitution() -> Non
     assert solved(scene) > 2.0 * 6.4e6
     assert result.max_force > 1.2 * other.max_force
     assert any("other values of plate.yield_stress" in text for text in result.warnings)
-    assert not ambiguity_warnings(scene, contacts=1)
-    assert not ambiguity_warnings(read(BLOCK), contacts=2)
+    assert not ambiguity_warnings(read(BLOCK))
+
+
+@pytest.mark.one_version
+def test_warning_if_only_the_measured_impact_has_several_contacts() -> None:
+    """It was given for an impact with several contacts, whatever the measured one had."""
+    plate = {
+        "radius": 0.159, "thickness": 9.36e-3, "edge": "simply-supported", "youngs_modulus": 614e6,
+        "poissons_ratio": 0.33, "density": 10700.0,
+    }  # fmt: skip
+    tables = {"sphere": {"radius": 0.564, "mass": 9.77}, "plate": plate, "inertia": {"modes": 12}}
+    measured = {"solve_for": "retardation_time", "target": "plate"}
+    for tested_at, speed, goal, warned in (
+        (2.8e-4, 2.8e-5, 0.83, True),
+        (2.8e-5, 2.8e-4, 0.92, False),
+    ):
+        wanted = measured | {"tested_at": tested_at, "restitution": goal}
+        result = simulate(read(tables | {"impact": {"speed": speed}, "measured": wanted}))
+        assert result.dynamics is not None
+        assert (len(result.dynamics.impact_history.contacts) == 1) is warned
+        assert any("the measured impact has" in text for text in result.warnings) is warned
 
 
 @pytest.mark.one_version

@@ -147,6 +147,8 @@ def test_sobol_sequence_has_a_power_of_two_of_points() -> None:
         plan.sample(TWO, 1000, 1, "sobol")
     with pytest.raises(SceneError, match=r"makes 4 runs.* take 512 or 1024"):
         plan.saltelli(TWO, 1000, 1)
+    with pytest.raises(SceneError, match="got 2; take 4 or 8"):
+        plan.saltelli(TWO, 2, 1)
 
 
 def test_gaps_complement_the_ranges() -> None:

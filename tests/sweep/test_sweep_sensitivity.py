@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import platecontact as pc
 import pytest
+from scipy.stats import qmc
 from studies import QUICK, scene
 
 from derivation.cli import main
@@ -83,6 +84,29 @@ def test_confidence_intervals_have_their_coverage(
         ).sel(result=next(iter(UNITS)), key="sphere.radius")
         inside.append(data["first_order_low"] < 0.8 < data["first_order_high"])
     assert sum(map(bool, inside)) >= 17
+
+
+def test_few_points_have_wide_intervals() -> None:
+    """Bootstrap intervals alone contained 81 % of the indices with 4 points, 85 % with 8."""
+    rng, weights = np.random.default_rng(0), np.array([1.0, 2.0])
+    index = weights**2 / np.sum(weights**2)
+    inside = []
+    for base in (4, 8):
+        for _ in range(60):
+            points = qmc.Sobol(4, rng=rng).random(base)
+            one, other = points[:, :2], points[:, 2:]
+            mixed = [np.where(np.arange(2) == key, other, one) for key in range(2)]
+            values = np.stack([x @ weights for x in (one, other, *mixed)], axis=-1)
+            _, low, high = sensitivity._with_intervals(values[None])
+            inside.append(((low[:, 0] <= index) & (index <= high[:, 0])).mean())
+    assert np.mean(inside) > 0.9
+
+
+def test_indices_of_one_result_and_key() -> None:
+    """SciPy's function fails for them."""
+    points = qmc.Sobol(2, rng=0).random(64)
+    [first], [total] = sensitivity._indices(points[None][:, :, [0, 1, 1]])
+    assert [*first, *total] == pytest.approx([1.0, 1.0], abs=0.05)
 
 
 def test_command_prints_and_plots_indices(

@@ -67,6 +67,8 @@ class Fit(NamedTuple):
     parts
         Tolerance of the results over that of a measurement with plate inertia [1]; 0 without
         plate inertia, where the tolerance of the measurement is `STATIC_RTOL`.
+    contacts
+        Number of contacts in the measurement.
     """
 
     value: float
@@ -75,6 +77,7 @@ class Fit(NamedTuple):
     constant: float
     model: float
     parts: float
+    contacts: int = 1
 
 
 def fitted(scene: "Scene") -> "Scene":
@@ -168,14 +171,14 @@ def in_words(scene: "Scene") -> str:
     )
 
 
-def ambiguity_warnings(scene: "Scene", contacts: int) -> tuple[str, ...]:
-    """Warn that other constants may give the measured restitution, in an impact of contacts."""
+def ambiguity_warnings(scene: "Scene") -> tuple[str, ...]:
+    """Warn that other constants may give the restitution, if a measurement has several contacts."""
     wanted = scene.measured
-    if wanted is None or wanted.target == "block" or contacts == 1:
+    if wanted is None or (contacts := _fit_of(scene).contacts) == 1:
         return ()
     text = (
-        f"the impact has {contacts} contacts: other values of plate.{wanted.solve_for} may have "
-        "the measured restitution, too, but other results, which no error bound includes"
+        f"the measured impact has {contacts} contacts: other values of plate.{wanted.solve_for} "
+        "may have the measured restitution, too, but other results, which no error bound includes"
     )
     return (text,)
 
@@ -275,7 +278,7 @@ def _with_inertia(measured: Measurement, rtol: float | None) -> Fit:
     value, trial = found
     error, model = _error_in(measured, trial), float(trial.model_errors["restitution"])
     constant = _error_over_slope(error + model, slope)
-    return Fit(value, ratio * error, trial.bound, constant, change * model, parts)
+    return Fit(value, ratio * error, trial.bound, constant, change * model, parts, trial.contacts)
 
 
 def _ratio(change: float) -> float:

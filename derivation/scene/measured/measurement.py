@@ -123,7 +123,7 @@ class Measurement:
         from derivation.scene.selection.method_selection import dynamic_impact, solve_selected
 
         rtol, selected = selected_effects(self.scene(value))
-        law, bound, errors = selected.law, ROUGH, dict[str, float]()
+        law, bound, errors, contacts = selected.law, ROUGH, dict[str, float](), 1
         if self.part and law.dynamic:
             numbers = with_few_modes(law, self.part, self.work).numbers
         else:
@@ -131,6 +131,7 @@ class Measurement:
             numbers, accuracy = solve_selected(selected, rtol, within=within)
             bound = accuracy.bound
             motion = dynamic_impact(selected, rtol, within) if law.dynamic else None
+            contacts = len(motion.inertia.contacts) if motion else 1
             errors = model_errors(law, numbers, deflections_in(law, numbers, motion), motion)
         if math.isnan(numbers[-1]):
             raise IncompleteTrialError(
@@ -139,7 +140,8 @@ class Measurement:
                 'a lighter sphere, or set measured.target = "block"'
             )
         check_radius(law, a := numbers[3], "impact.speed", "reduce the speed")
-        return Trial(numbers, min(law.max_pressure(a), law.pressure_limit), bound, errors)
+        pressure = min(law.max_pressure(a), law.pressure_limit)
+        return Trial(numbers, pressure, bound, errors, contacts)
 
     def scene(self, value: float | None) -> "Scene":
         """Return the scene with a trial value; without one, the plate loses no energy by it."""
@@ -375,13 +377,9 @@ class Measurement:
         )
 
     def check_reached(self, value: float, margin: float = 0.0) -> None:
-        """Raise an error if a constant that gives the smallest restitution gives a larger one.
+        """Raise `UnreachedError` if a constant for the smallest restitution gives a larger one.
 
-        Raises
-        ------
-        UnreachedError
-            If the restitution with this constant exceeds the measured one by more than its error
-            bound and the relative difference `margin` [1].
+        It is larger by more than its error bound and the relative difference `margin` [1].
         """
         trial = self.simulated(value)
         least = trial.restitution * (1.0 - trial.bound)

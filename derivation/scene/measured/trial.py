@@ -43,13 +43,15 @@ class IncompleteTrialError(SceneError):
 class Trial(NamedTuple):
     """The results of a measurement with a trial value: outputs, pressure [Pa], error bound [1].
 
-    `model_errors` are those of each output [1]; a rough simulation has none.
+    `model_errors` are those of each output [1]; a rough simulation has none. `contacts` is the
+    number of contacts.
     """
 
     outputs: Results
     max_pressure: float
     bound: float
     model_errors: dict[str, float]
+    contacts: int = 1
 
     @property
     def contact_time(self) -> float:

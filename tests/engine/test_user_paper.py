@@ -1,7 +1,6 @@
 """All stages for a paper of the user outside the checkout, each in a separate process."""
 
 import json
-import os
 import re
 import shlex
 import shutil
@@ -11,6 +10,7 @@ from importlib import import_module
 from pathlib import Path
 
 import pytest
+from forked import command
 from guide import apply_examples
 
 from derivation import pipeline
@@ -43,13 +43,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def run(*arguments: str, home: Path, status: int = 0) -> str:
     """Return what a command prints in a separate process outside the checkout."""
-    done = subprocess.run(
-        [sys.executable, "-m", "derivation.cli", *arguments],
-        cwd=home, capture_output=True, text=True, check=False,
-        env={**os.environ, "XDG_CACHE_HOME": str(home / "cache"), "PYTHONPATH": str(ROOT)},
-    )  # fmt: skip
-    assert done.returncode == status, done.stderr
-    return done.stdout + done.stderr
+    ended = command(*arguments, folder=home, environment={"XDG_CACHE_HOME": str(home / "cache")})
+    assert ended.status == status, ended.err
+    return ended.out + ended.err
 
 
 def test_derive_lists_all_formulas(folder: Path) -> None:

@@ -1,6 +1,7 @@
 """Certified evaluation of exact expressions by Arb balls of increasing precision."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 
@@ -20,6 +21,17 @@ SPARE_BITS = 24
 
 class PrecisionError(ArithmeticError):
     """A ball did not become small enough: the value is zero, singular or out of range."""
+
+
+@dataclass
+class LastPrecision:
+    """The precision [bits] that the last of successive points required.
+
+    The next one, which is usually close, begins with half of it. Otherwise most precisions would be
+    too small where digits cancel.
+    """
+
+    bits: int = 0
 
 
 def to_ball(number: Exact) -> flint.arb:
@@ -52,7 +64,10 @@ def enclosable(expression: sp.Basic) -> bool:
 
 
 def evaluate(
-    expression: sp.Basic, values: Mapping[sp.Symbol, Exact], digits: int = 50
+    expression: sp.Basic,
+    values: Mapping[sp.Symbol, Exact],
+    digits: int = 50,
+    last: LastPrecision | None = None,
 ) -> flint.arb:
     """Return a ball around the value of an expression, with a relative radius below 10^-digits.
 
@@ -65,6 +80,8 @@ def evaluate(
         represents.
     digits
         Number of correct decimal digits.
+    last
+        As for `refine`.
 
     Raises
     ------
@@ -77,6 +94,7 @@ def evaluate(
         digits,
         expression,
         _largest_precision(expression),
+        last,
     )
 
 
@@ -86,7 +104,11 @@ def _largest_precision(expression: sp.Basic) -> int:
 
 
 def refine(
-    compute: Callable[[], flint.arb], digits: int, what: object, most: int = MAX_BITS
+    compute: Callable[[], flint.arb],
+    digits: int,
+    what: object,
+    most: int = MAX_BITS,
+    last: LastPrecision | None = None,
 ) -> flint.arb:
     """Repeat a computation with doubled precision until its ball is small enough.
 
@@ -100,6 +122,8 @@ def refine(
         Description of the value for the error message.
     most
         Largest precision in bits.
+    last
+        Precision of the last point of several, which is updated.
 
     Raises
     ------
@@ -107,11 +131,13 @@ def refine(
         If `most` bits are not sufficient.
     """
     target = int(digits * LOG2_10) + 1
-    bits = target + SPARE_BITS
+    bits = max(target + SPARE_BITS, last.bits // 2 if last else 0)
     while bits <= most:
         with flint.ctx.workprec(bits):
             ball = compute()
         if ball.is_finite() and (ball.is_exact() or ball.rel_accuracy_bits() >= target):
+            if last:
+                last.bits = bits
             return ball
         bits *= 2
     raise PrecisionError(f"no {digits} digits of {what!s:.200} within {most} bits")

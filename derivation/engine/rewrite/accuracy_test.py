@@ -2,14 +2,14 @@
 
 import math
 import random
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import flint
 import sympy as sp
 
-from derivation.engine.formula.ball import Exact, PrecisionError, evaluate, to_ball
+from derivation.engine.formula.ball import Exact, LastPrecision, PrecisionError, evaluate, to_ball
 from derivation.engine.formula.operations import FUNCTIONS
 from derivation.engine.formula.ulp import neighbours, overflows, ulp_error
 from derivation.engine.rewrite.doubles import run
@@ -207,8 +207,9 @@ def _exact_points(
     if expression.has(sp.sin, sp.cos, sp.tan):
         tested = tuple(sorted({*tested, *(at for at in ANGLES if ends[0] <= at <= ends[1])}))
     exact = []
+    last = {each: LastPrecision() for pair in slopes for each in pair}
     for point in tested:
-        value, slack = _exact_value(slopes, x, point, fixed)
+        value, slack = _exact_value(slopes, x, point, fixed, last)
         if value is not None and value != 0 and not overflows(value) and abs(value) > 1e-300:
             exact.append(ExactPoint(point, value, slack))
     return tuple(exact)
@@ -219,16 +220,17 @@ def _exact_value(
     x: sp.Symbol,
     point: float,
     fixed: Sequence[tuple[sp.Symbol, float]],
+    last: Mapping[sp.Expr, LastPrecision],
 ) -> tuple[flint.arb | None, float]:
     """Return the value and its slack, by equal expressions with slopes; None without a ball."""
     at: dict[sp.Symbol, Exact] = {x: point, **dict(fixed)}
     for candidate, derivative in slopes:
         try:
-            value = evaluate(candidate, at, DIGITS)
+            value = evaluate(candidate, at, DIGITS, last[candidate])
         except (PrecisionError, NotImplementedError):
             continue
         try:
-            slope = evaluate(derivative, at, 3)
+            slope = evaluate(derivative, at, 3, last[derivative])
         except (PrecisionError, NotImplementedError):
             return value, 0.0  # without conditioning
         with flint.ctx.workprec(64):

@@ -10,7 +10,7 @@ import flint
 import numpy as np
 import sympy as sp
 
-from derivation.engine.formula.ball import PrecisionError, enclose, refine, to_ball
+from derivation.engine.formula.ball import LastPrecision, PrecisionError, enclose, refine, to_ball
 from derivation.engine.formula.ulp import from_ordinal, neighbours, ordinal, overflows, ulp_error
 from derivation.engine.rewrite.difficult_points import derivative, difficult_points
 from derivation.engine.rewrite.stabilise import Stable
@@ -74,6 +74,7 @@ class _Reference:
         self.candidates = [(form, derivative(form, self.x)) for form in forms]
         self.roundings = stable.roundings
         self.known: dict[float, tuple[flint.arb, float] | None] = {}
+        self.last: dict[tuple[sp.Expr, int, int], LastPrecision] = {}
 
     def at(self, point: float) -> tuple[flint.arb, float] | None:
         """Return the value, and half the condition number; None if there is no certified value."""
@@ -128,8 +129,11 @@ class _Reference:
             return bool(enclose(form, {self.x: to_ball(point)}).is_finite())
 
     def _refined(self, form: sp.Expr, point: float, digits: int, most: int) -> flint.arb | None:
+        last = self.last.setdefault((form, digits, most), LastPrecision())
         try:
-            return refine(lambda: enclose(form, {self.x: to_ball(point)}), digits, "a point", most)
+            return refine(
+                lambda: enclose(form, {self.x: to_ball(point)}), digits, "a point", most, last
+            )
         except PrecisionError:
             return None
 

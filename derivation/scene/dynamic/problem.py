@@ -39,7 +39,7 @@ class ImpactState(NamedTuple):
     @property
     def separation_speed(self) -> float:
         """Velocity of the plate less that of the sphere; positive if they separate."""
-        return float(np.sum(self.q_dot)) - self.velocity
+        return float(self.q_dot.sum()) - self.velocity
 
 
 @dataclass(frozen=True)

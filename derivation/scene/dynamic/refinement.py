@@ -186,9 +186,12 @@ class Refinement:
         free = math.isinf(reach.need)  # there is no tolerance
         change, enough = best.inertia.left(reach.outputs)[0], self._accepted_change(best)
         if change <= enough and not echoes_matter(best, reach):
-            # More modes also show whether the first contact splits, if they take little work.
+            # More modes also show whether the first contact splits, if they take little work. The
+            # restitution of a yielded contact may change more by the second doubling than by the
+            # first.
+            unsure = jump_matters(best, reach) or (self.law.plastic and len(runs) == 1)
             quick = self._next_work(best, finer(self.law, count)) <= LONG
-            return most if quick and jump_matters(best, reach) else 0.0
+            return most if quick and unsure else 0.0
         if free and exceeds_modes(self.law, best, reach.outputs):
             return 0.0
         used = contact_sequence.work_of(best.impact_history)

@@ -109,7 +109,10 @@ def test_warning_of_the_paraboloid_above_0_3_sphere_radii() -> None:
 
 def test_warning_of_membrane_stretching_above_half_a_thickness() -> None:
     below, above, text = either_side(
-        lambda v: changed(plate={"thickness": 0.002}, impact={"speed": v}, sphere={"mass": 0.1}),
+        lambda v: changed(
+            plate={"thickness": 0.002}, impact={"speed": v}, sphere={"mass": 0.1},
+            effects={"spherical_profile": "auto"},
+        ),
         "w/H", 0.001, 0.1,
     )  # fmt: skip
     for result in (below, above):

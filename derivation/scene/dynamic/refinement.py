@@ -189,7 +189,7 @@ class Refinement:
             # More modes also show whether the first contact splits, if they take little work. The
             # restitution of a yielded contact may change more by the second doubling than by the
             # first.
-            unsure = jump_matters(best, reach) or (self.law.plastic and len(runs) == 1)
+            unsure = jump_matters(best, reach) or (best.dent > 0.0 and len(runs) == 1)
             quick = self._next_work(best, finer(self.law, count)) <= LONG
             return most if quick and unsure else 0.0
         if free and exceeds_modes(self.law, best, reach.outputs):

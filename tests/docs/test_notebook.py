@@ -21,7 +21,7 @@ def executed(tmp_path_factory: pytest.TempPathFactory) -> list[Any]:
     notebook = nbformat.read(NOTEBOOK, as_version=4)
     variables = ("IPYTHONDIR", "JUPYTER_RUNTIME_DIR", "JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR")
     environment = {**os.environ, **dict.fromkeys(variables, str(home)), "PYTHONPATH": str(ROOT)}
-    NotebookClient(notebook, timeout=300, kernel_name="python3").execute(
+    NotebookClient(notebook, timeout=300, startup_timeout=300, kernel_name="python3").execute(
         cwd=str(home), env=environment
     )
     return [cell for cell in notebook.cells if cell.cell_type == "code"]

@@ -167,7 +167,7 @@ class Refinement:
 
     def _unrefined(self, first: FirstRun, count: int) -> DynamicImpact | None:
         """Return the first run with an error estimate by coarser ones; None if they give none."""
-        if first.estimated:
+        if first.estimated or self.law.model.inertia.pointwise:  # which does not converge
             return first.estimated
         compared = self._by_coarser(first.run, count)
         return compared[0] if compared else None

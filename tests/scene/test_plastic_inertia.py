@@ -182,6 +182,18 @@ def test_plate_has_no_more_modes_than_a_stiff_unloading_allows() -> None:
         assert abs(before / after - 1.0) <= min(result.bound_of(name), 0.01)
 
 
+def test_stiff_unloading_with_the_pointwise_coupling_has_no_error_estimate() -> None:
+    """Its results do not converge with the number of modes."""
+    scene = {
+        "sphere": {"radius": 3e-4, "material": "steel", "yield_stress": 1.2e9},
+        "plate": {"radius": 0.02, "thickness": 0.005, "material": "aluminium 6061-T6"},
+        "impact": {"speed": 60.0},
+        "inertia": {"coupling": "pointwise"},
+    }
+    with pytest.raises(SceneError, match="unloads more stiffly"):
+        simulate(read(scene))
+
+
 def test_tolerance_that_a_stiff_unloading_prevents_names_one_that_is_met() -> None:
     scene = {
         "sphere": {"radius": 3e-4, "material": "steel", "yield_stress": 1.2e9},

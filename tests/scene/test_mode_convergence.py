@@ -68,6 +68,13 @@ def test_error_of_the_contact_time_is_at_most_the_stated_one(modes: int) -> None
     assert error <= stated(modes, "contact_time") < pessimism * error
 
 
+def with_lowest_branch(scene: dict[str, Any], modes: int, tolerance: float) -> DynamicImpact:
+    """Return an impact with a number of bending modes and a tolerance of the time elements."""
+    law = selected_effects(read(scene))[1].law
+    problem = problem_of(branching(law, "A0"), modes)
+    return dynamic_impact_of(law, contact_sequence.impact_history(problem, 24, tolerance, math.inf))
+
+
 SOFT: dict[str, Any] = {
     "sphere": {"radius": 2.8561e-3, "density": 7850},
     "plate": {
@@ -81,9 +88,7 @@ SOFT: dict[str, Any] = {
 @lru_cache
 def on_soft_plate(modes: int) -> DynamicImpact:
     """Return the impact of `SOFT` with a number of bending modes."""
-    law = selected_effects(read(SOFT))[1].law
-    problem = problem_of(branching(law, "A0"), modes)
-    return dynamic_impact_of(law, contact_sequence.impact_history(problem, 24, 1e-8, math.inf))
+    return with_lowest_branch(SOFT, modes, 1e-8)
 
 
 @pytest.mark.parametrize("modes", [34, 69])
@@ -235,9 +240,7 @@ PHONE: dict[str, Any] = {
 @lru_cache
 def on_phone(modes: int) -> DynamicImpact:
     """Return the impact of `PHONE` with a number of bending modes."""
-    law = selected_effects(read(PHONE))[1].law
-    problem = problem_of(branching(law, "A0"), modes)
-    return dynamic_impact_of(law, contact_sequence.impact_history(problem, 24, 1e-6, math.inf))
+    return with_lowest_branch(PHONE, modes, 1e-6)
 
 
 def test_runs_with_other_contacts_are_compared_contact_by_contact() -> None:

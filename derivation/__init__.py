@@ -8,6 +8,7 @@ Importing this package alone loads neither SymPy nor anything else that is slow.
 """
 
 import os
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -51,13 +52,17 @@ def formula(name: str) -> "Record":
 
     known = derived.formulas()
     if name not in known:
-        suggestion = did_you_mean(name, known, most=3)
+        suggestion = did_you_mean(str(name), known, most=3)
         raise KeyError(f"no formula {name!r}: {suggestion}expected one of {one_of(known)}")
     return known[name]
 
 
 def diagnose(
-    name: str, text: "str | sp.Expr", latex: bool = False, at: str = "", digits: int = 50
+    name: str,
+    text: "str | sp.Expr",
+    latex: bool = False,
+    at: "str | Mapping[str, object]" = "",
+    digits: int = 50,
 ) -> "TextDiagnosis":
     """Compare a formula of your own with the derived one of the same name.
 
@@ -71,8 +76,9 @@ def diagnose(
     latex
         Whether `text` is LaTeX instead of SymPy syntax.
     at
-        Point at which both are evaluated, in SI units, like ``phi=2.5,h=0.1``; the decimals are
-        taken as exact. Symbols that are not given have default values.
+        Point at which both are evaluated, in SI units, like ``phi=2.5,h=0.1`` or
+        ``{"phi": 2.5, "h": 0.1}``; the decimals are taken as exact. Symbols that are not given have
+        default values.
     digits
         Number of significant digits of both values, from 1 to 1000.
 
@@ -98,4 +104,4 @@ def diagnose(
     """
     from derivation.plate import derived
 
-    return derived.diagnose(name, str(text), latex, at, digits)
+    return derived.diagnose(str(name), str(text), latex, at, digits)

@@ -1,9 +1,11 @@
 """Contact law and impact of a scene to many digits."""
 
+from numbers import Integral
+
 from derivation.checks import many_digits
 from derivation.checks.paper_law import in_doubles
 from derivation.plate.impact.oracle.many_digits import ImpactReference
-from derivation.scene import Scene
+from derivation.scene.scene import Scene, check_scene
 
 
 def reference(scene: Scene, digits: int = 50) -> ImpactReference:
@@ -46,6 +48,9 @@ def reference(scene: Scene, digits: int = 50) -> ImpactReference:
     >>> pc.reference(scene, digits=30).agrees
     True
     """
-    if not 1 <= digits <= 1000:
-        raise ValueError(f"digits: expected 1 to 1000, got {digits}; change it")
+    check_scene(scene)
+    if not (isinstance(digits, Integral) and 1 <= digits <= 1000):
+        raise ValueError(
+            f"digits: expected a whole number from 1 to 1000, got {digits!r:.60}; change it"
+        )
     return many_digits.reference(in_doubles(scene), digits, lambda *_: None)

@@ -11,7 +11,7 @@
 import importlib
 import json
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
@@ -279,7 +279,12 @@ def formulas(paper: Paper) -> dict[str, Record]:
 
 
 def diagnose(
-    paper: Paper, name: str, text: str, latex: bool = False, at: str = "", digits: int = 50
+    paper: Paper,
+    name: str,
+    text: str,
+    latex: bool = False,
+    at: str | Mapping[str, object] = "",
+    digits: int = 50,
 ) -> TextDiagnosis:
     """Compare a formula given as text with the derived one; see `derivation.diagnose`."""
     relations = paper.errata.relations

@@ -1,5 +1,7 @@
 """Cached results of the first stages: proved formulas, misprints, comparisons of formulas."""
 
+from collections.abc import Mapping
+
 from derivation.engine.errata.findings import Finding
 from derivation.engine.errata.text import TextDiagnosis, diagnose_limited
 from derivation.engine.formula.chain import Chain, DerivationStep
@@ -33,7 +35,7 @@ def misprints() -> tuple[Finding, ...]:
 
 
 def diagnose(
-    name: str, text: str, latex: bool = False, at: str = "", digits: int = 50
+    name: str, text: str, latex: bool = False, at: str | Mapping[str, object] = "", digits: int = 50
 ) -> TextDiagnosis:
     """Compare a formula given as text with the derived one.
 
@@ -42,7 +44,7 @@ def diagnose(
     name, text, latex, digits
         As for `derivation.engine.errata.text.diagnose_text`.
     at
-        Values of symbols in SI units, a list like ``phi=2.5,h=0.1``.
+        Values of symbols in SI units, a list like ``phi=2.5,h=0.1``, or a mapping.
 
     Raises
     ------

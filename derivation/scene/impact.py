@@ -255,6 +255,7 @@ def selected_effects(
         If the tolerance is not between 1e-13 and 1, or a required or enabled effect cannot be
         computed.
     """
+    check_scene(scene)
     outputs = OUTPUTS
     if scene.accuracy is not None:
         outputs = scene.accuracy.outputs

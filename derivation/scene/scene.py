@@ -32,7 +32,7 @@ from derivation.scene.input.table import (
     problems,
     problems_of,
 )
-from derivation.scene.input.toml_file import name_of, read_toml
+from derivation.scene.input.toml_file import name_of, path_of, read_toml
 from derivation.scene.output.html import html_table
 
 Wanted = Literal["auto"] | bool
@@ -282,7 +282,7 @@ def load_with_distributions(path: str | Path) -> tuple[Scene, Mapping[str, Any]]
 
 def _tables(path: str | Path) -> tuple[dict[str, Any], Mapping[str, Any]]:
     """Return the tables of a scene in a file, and its distributions."""
-    data = read_toml(path, "the scene file", remedy(Path(path)), "`radius = 0.13`")
+    data = read_toml(path, "the scene file", remedy(path_of(path)), "`radius = 0.13`")
     given = data.pop(VARY, {}) if isinstance(data.get(VARY, {}), Mapping) else {}
     return data, given
 

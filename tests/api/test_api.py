@@ -3,10 +3,12 @@
 import doctest
 import importlib
 import importlib.metadata
+import math
 import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import platecontact
 import pytest
@@ -59,6 +61,31 @@ def test_formulas_may_be_sympy_expressions() -> None:
     force = platecontact.formula("P").expression
     assert platecontact.diagnose("P", force).verdict == "equal"
     assert platecontact.diagnose("P", 2 * force).verdict == "different"
+
+
+def test_a_point_may_be_a_mapping() -> None:
+    text = "16*mu*(lam + mu)*a**3/(3*R*(lam + 2*mu))"
+    given = platecontact.diagnose("P", text, at={"a": 0.001, "R": "0.2"})
+    assert given == platecontact.diagnose("P", text, at="a=0.001,R=0.2")
+    assert dict(given.point)["a"] == "0.001"
+
+
+@pytest.mark.parametrize(
+    ("call", "expected"),
+    [
+        (lambda: platecontact.formula(3), "no formula 3"),
+        (lambda: platecontact.load(3), "expected the path of a file, got 3"),
+        (lambda: platecontact.explain(3), "expected a Scene, got 3"),
+        (lambda: platecontact.reference(3), "expected a Scene, got 3"),
+        (lambda: platecontact.diagnose(3, "a"), "no formula '3'"),
+        (lambda: platecontact.diagnose("P", "a**3", at=3), "expected a point like"),
+        (lambda: platecontact.diagnose("P", "a**3", at={1: 2}), "unknown symbol"),
+        (lambda: platecontact.diagnose("P", "a**3", at={"a": math.nan}), "expected a decimal"),
+    ],
+)
+def test_arguments_of_a_wrong_type_are_rejected(call: Any, expected: str) -> None:
+    with pytest.raises((KeyError, ValueError), match=expected):
+        call()
 
 
 def test_unknown_name_raises_an_attribute_error() -> None:

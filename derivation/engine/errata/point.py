@@ -35,8 +35,8 @@ def default_value(argument: Argument, values: Mapping[str, str]) -> str:
     raise FormulaError(f"no default value of {argument.name} is known: add it to the point")
 
 
-def parse_point(text: str) -> dict[str, str]:
-    """Return values by symbol name, from ``phi=2.5,h=0.1``.
+def parse_point(given: str | Mapping[str, object]) -> dict[str, str]:
+    """Return values by symbol name, from ``phi=2.5,h=0.1`` or a mapping such as ``{"phi": 2.5}``.
 
     Raises
     ------
@@ -44,7 +44,11 @@ def parse_point(text: str) -> dict[str, str]:
         If an entry is not a name and a value, or a symbol is given twice.
     """
     point: dict[str, str] = {}
-    for entry in filter(None, (part.strip() for part in text.split(","))):
+    if isinstance(given, Mapping):
+        return {str(name): str(value) for name, value in given.items()}
+    if not isinstance(given, str):
+        raise FormulaError(f"--at: expected a point like phi=2.5,h=0.1, got {given!r:.60}")
+    for entry in filter(None, (part.strip() for part in given.split(","))):
         name, equals, literal = (part.strip() for part in entry.partition("="))
         if not equals or not name or not literal:
             raise FormulaError(f"--at: expected a point like phi=2.5,h=0.1, got {entry!r:.60}")

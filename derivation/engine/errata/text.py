@@ -196,7 +196,7 @@ def diagnose_limited(
     text: str,
     *,
     latex: bool = False,
-    at: str = "",
+    at: str | Mapping[str, object] = "",
     digits: int = 50,
 ) -> TextDiagnosis:
     """Compare as `diagnose_text` does, with limits of time and memory.
@@ -206,7 +206,7 @@ def diagnose_limited(
     chain
         The derived formulas.
     at
-        Values of symbols in SI units, such as ``phi=2.5,h=0.1``.
+        Values of symbols in SI units, such as ``phi=2.5,h=0.1``, or a mapping.
     relations, name, text, latex, digits
         As for `diagnose_text`.
 

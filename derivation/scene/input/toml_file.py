@@ -1,5 +1,6 @@
 """Reads TOML files: of scenes, and of distributions."""
 
+import os
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -8,9 +9,23 @@ from derivation.engine.files import read_file
 from derivation.engine.printable import one_line
 from derivation.scene.errors import SceneError
 from derivation.scene.input import toml_errors
+from derivation.scene.input.messages import shown
 
 LARGEST = 2**20
 """Largest size of a file [bytes]."""
+
+
+def path_of(path: object) -> Path:
+    """Return the path of a file that an argument denotes.
+
+    Raises
+    ------
+    SceneError
+        If the argument is neither text nor a path.
+    """
+    if not isinstance(path, str | os.PathLike):
+        raise SceneError(f"expected the path of a file, got {shown(path)}; read tables with `read`")
+    return Path(path)
 
 
 def name_of(path: str | Path) -> str:

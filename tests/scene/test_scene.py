@@ -75,6 +75,7 @@ BAD = [
     (LAME, "E = 1e9\nnu = 0.3", "E: |is plate.youngs_modulus; rename|is plate.poissons_ratio"),
     ("[impact]", "[accuracy]\nrtol = 0.1\noutputs = ['force']\n[impact]", "the string \"force\""),
     ("radius = 1.0", "radius = inf", "plate.radius: |got inf|extent = \"infinite\" in [inertia]"),
+    ("radius = 1.0", "radius = 'infinite'", "plate.radius: |extent = \"infinite\" in [inertia]"),
     ("radius = 1.0", "diameter = 2.0", "plate.diameter: |plate.radius|half"),
     ("radius = 1.0", "radius = 1.0\nwidth = 1.0", "plate.width: |circular|infinite"),
     ("radius = 1.0", "radius = 1.0\nsupport = 'clamped'", "plate.support: |plate.edge"),

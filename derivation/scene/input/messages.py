@@ -117,6 +117,8 @@ ELSEWHERE = {
 """Remedies for values beyond the range of a key."""
 ENDLESS = ' and, for an infinite plate, extent = "infinite" in [inertia]'
 """Remedy for an infinite radius."""
+INFINITE = ("inf", "infinite", "infinity")
+"""Values of an infinite radius."""
 
 
 def tolerance_remedy(value: Any) -> str:
@@ -202,10 +204,10 @@ def explain(kind: str, location: tuple[int | str, ...], value: Any, fields: Fiel
         return f"{name}: {expected}, got nothing; add {example} to [{table}]"
     elsewhere = tolerance_remedy(value) if key == "rtol" else ELSEWHERE.get(key, "")
     text = field.examples and not isinstance(field.examples[0], (int, float))
-    if isinstance(value, str) and not text:
-        return f"{name}: {expected}, got {shown(value)}; {_unquoted(key, value, field)}{elsewhere}"
-    if name == "plate.radius" and value == math.inf:
+    if name == "plate.radius" and str(value).lower() in INFINITE:
         elsewhere = ENDLESS
+    elif isinstance(value, str) and not text:
+        return f"{name}: {expected}, got {shown(value)}; {_unquoted(key, value, field)}{elsewhere}"
     return f"{name}: {expected}, got {shown(value)}; write for example {example}{elsewhere}"
 
 

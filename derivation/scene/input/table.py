@@ -44,13 +44,12 @@ class Table(BaseModel):
     if not TYPE_CHECKING:  # for type checkers the keys are those of the class
 
         def __init__(self, /, **keys: Any) -> None:
-            table = type(self)
-            name = table.__name__.lower()
+            name = type(self).__name__.lower()
             given = plain_keys(keys)
             try:
                 self.__pydantic_validator__.validate_python(given, self_instance=self)
             except ValidationError as error:
-                texts = problems(problems_of(error, name), {name: given}, {name: table})
+                texts = problems(problems_of(error, name), {name: given}, {**_tables(), name: type(self)})
                 where = f"{name}: " if len(texts) > 1 else ""
                 raise SceneError(f"{where}{in_words(texts)}") from None
 
@@ -190,6 +189,12 @@ class Problem(NamedTuple):
     kind: str
     place: tuple[int | str, ...]
     value: Any
+
+
+def _tables() -> dict[str, type[Table]]:
+    """Return the tables of a scene file by name: a key may belong to another one."""
+    tables = {table.__name__.lower(): table for table in Table.__subclasses__()}
+    return {name: table for name, table in tables.items() if name not in ("scene", "material")}
 
 
 def problems_of(error: ValidationError, table: str = "") -> Iterator[Problem]:

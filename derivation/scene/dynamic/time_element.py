@@ -14,6 +14,7 @@ the nodes it is a matrix, computed once per element: no mode is integrated in ti
 only unknowns are the contact radii.
 """
 
+import itertools
 import math
 from typing import NamedTuple
 
@@ -40,13 +41,18 @@ the plate; per x the energies lost in the contact, by the pointwise coupling and
 plate; and the contact radius, which differs from that of the law by the curvature of the plate."""
 
 
+SEVERAL = 4
+"""Number of modes per shape from which a matrix for each shape saves time."""
+
+
 class Nodes(NamedTuple):
     """The nodes of an element, with all quantities that do not depend on its radii.
 
     The fields are x; times since the start of the contact and of the element; dt/dx; matrices of
     the integrals from the start of the element over x, over t and twice over t; the modes in parts,
     their response, and their free motion minus uniform motion; for each shape the sum of this
-    difference over its modes; and the uniform motion from position and velocity at the start.
+    difference over its modes; the uniform motion from position and velocity at the start; and, if
+    the shapes have many modes, the matrix of each from forces to deflections at the nodes.
     """
 
     x: Array
@@ -61,6 +67,7 @@ class Nodes(NamedTuple):
     free: Array
     moved: Array
     even: Array
+    by_force: Array | None
 
 
 class Values(NamedTuple):
@@ -109,9 +116,31 @@ def nodes_of(problem: DynamicProblem, n: int, x: float, length: float, start: Im
     by_t = by_x * rate
     even = modes.by_shape(start.q) + since[:, None] * modes.by_shape(start.q_dot)
     moved, twice = modes.by_shape(free), by_t @ by_t
+    many = problem.omega.size >= SEVERAL * modes.phi.size
+    by_force = _matrices(problem, parts, response, by_t) if many else None
     return Nodes(
-        xs, t, since, rate, by_x, by_t, twice, parts, response, free, moved, even
+        xs, t, since, rate, by_x, by_t, twice, parts, response, free, moved, even, by_force
     )  # fmt: skip
+
+
+def _matrices(
+    problem: DynamicProblem, parts: tuple[Part, ...], response: Response, by_t: Array
+) -> Array:
+    """Return `Nodes.by_force`, shape (shapes, nodes, nodes).
+
+    With them, an iteration takes the same time for any number of modes per shape.
+    """
+    n = by_t.shape[0]
+    matrices = np.empty((problem.contact.modes.phi.size, n, n))
+    for part in parts:
+        drive = response.drive[..., part.modes] * problem.strength[part.modes]
+        moved = response.moved[..., part.modes]
+        ends = itertools.pairwise([*part.first, part.shape.size])
+        for shape, (begin, end) in enumerate(ends, part.shapes.start):
+            left, right = (of[..., begin:end].reshape(n, -1) for of in (moved, drive))
+            np.matmul(left, right.T, out=matrices[shape])
+    matrices *= by_t
+    return matrices
 
 
 def _driven_waves(problem: DynamicProblem, nodes: Nodes, part: Part, driven: Array) -> Array:
@@ -127,6 +156,8 @@ def _driven_waves(problem: DynamicProblem, nodes: Nodes, part: Part, driven: Arr
 
 def _modal_deflections(problem: DynamicProblem, nodes: Nodes, driven: Array) -> Array:
     """Return the deflection of each shape at the nodes by forces at the nodes."""
+    if nodes.by_force is not None:
+        return np.asarray((nodes.by_force @ driven.T[..., None])[..., 0].T)
     bent = np.empty_like(driven)
     for part in nodes.parts:
         waves = _driven_waves(problem, nodes, part, driven)
@@ -139,6 +170,8 @@ def _deflection_sums(
     problem: DynamicProblem, nodes: Nodes, modal_weights: Array, driven: Array
 ) -> Array:
     """Return the sum of weighted deflections at each node, per contact force at each node."""
+    if nodes.by_force is not None:
+        return np.asarray(np.einsum("is,sik,ks->ik", modal_weights, nodes.by_force, driven))
     n = nodes.t.size
     bent = np.zeros((n, n))
     for part in nodes.parts:

@@ -1,7 +1,6 @@
 """Error messages about a scene: what was expected, what was given, what to do."""
 
 import json
-import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from numbers import Real

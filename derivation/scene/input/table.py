@@ -49,7 +49,9 @@ class Table(BaseModel):
             try:
                 self.__pydantic_validator__.validate_python(given, self_instance=self)
             except ValidationError as error:
-                texts = problems(problems_of(error, name), {name: given}, {**_tables(), name: type(self)})
+                texts = problems(
+                    problems_of(error, name), {name: given}, {**_tables(), name: type(self)}
+                )
                 where = f"{name}: " if len(texts) > 1 else ""
                 raise SceneError(f"{where}{in_words(texts)}") from None
 

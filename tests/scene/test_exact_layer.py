@@ -16,6 +16,8 @@ from derivation.checks.finite_elements.cases import HERTZ
 from derivation.scene.dynamic.time_element import A, P
 from generated.arrays import Double as Array
 
+pytestmark = pytest.mark.one_version
+
 H, DENSITY, MODULUS = 0.01, 2500.0, 70e9
 TIMES = 1024
 

@@ -13,6 +13,8 @@ from derivation.scene.dynamic.unlike_bodies import unlike_bodies_errors, unlike_
 from derivation.scene.selection.method_selection import growth_of
 from generated.arrays import Double as Array
 
+pytestmark = pytest.mark.one_version
+
 RADIUS, DENSITY, SPEED, NU = 0.01, 1000.0, 0.1, 0.3
 TINY = 1e-14
 

@@ -71,15 +71,17 @@ def rows_of(problem: DynamicProblem, touching: ContactRun, t: Array) -> Array:
     s = 2.0 * (x[inside] - starts[place[inside]]) / lengths[place[inside]] - 1.0
     basis = np.zeros((t.size, pieces[0].element.slope.size))
     basis[inside] = legvander(s, basis.shape[1] - 1)
-    for index in sorted(set(place[inside].tolist())):
-        here = inside & (place == index)
-        found[:, here] = pieces[index].element.rows @ basis[here].T
-        branch = pieces[index].yielding
-        if branch is not None:
+    ordered = np.flatnonzero(inside)[np.argsort(place[inside], kind="stable")]
+    ends = np.flatnonzero(np.diff(place[ordered])) + 1
+    for here in np.split(ordered, ends) if ordered.size else ():
+        piece = pieces[place[here[0]]]
+        found[:, here] = piece.element.rows @ basis[here].T
+        if piece.yielding is not None:
             a = problem.a * np.maximum(found[A, here], 0.0)
-            widened = branch.widened(a, problem.contact.at(a).force) / problem.a
-            touched = here & (found[A] > 0.0)
-            found[C, touched] *= widened[touched[here]] / found[A, touched]
+            widened = piece.yielding.widened(a, problem.contact.at(a).force) / problem.a
+            positive = found[A, here] > 0.0
+            touched = here[positive]
+            found[C, touched] *= widened[positive] / found[A, touched]
             found[A, here] = widened
     flight = np.flatnonzero(~inside)
     block, radius = max(1, AT_ONCE // max(problem.omega.size, 1)), pieces[-1].radius

@@ -12,8 +12,9 @@ from generated.arrays import Double as Array
 
 STEP, BLOCK, BLOCKS = 0.3, 256, 4000
 """Phase of the fastest mode between evaluations, evaluations per block, and number of blocks."""
-AT_ONCE = 4_000_000
-"""Number of values of modes that are computed at once, to limit the memory."""
+AT_ONCE = 2**18
+"""Number of values of modes that are computed at once: most flights with many modes are decided
+after a few evaluations."""
 FAST = 0.1
 """Sum of the amplitudes of modes over the gap below which they cannot close it."""
 RECOVERED = 20.0

@@ -139,6 +139,24 @@ def response() -> Claims:
 
 
 @named_routine
+def free_by_response() -> Claims:
+    """Return q/q_0 - 1 and q/(t q_0') - 1, except at small phases, from factors of `response`.
+
+    `moved` and `rate` are its first and third result.
+    """
+    of, free = response_factors(), free_motion()
+    moved, rate = sp.symbols("moved rate", real=True)
+    return Claims(
+        (phase, zeta, moved, rate),
+        (),
+        (rate + 2 * zeta * moved - 1, moved / phase - 1),
+        (sp.diff(free.q, q_j) - 1, sp.diff(free.q, q_rate) / t - 1),
+        {**MEANING, moved: of.moved[0], rate: of.rate[0]},
+        _reduced,
+    )
+
+
+@named_routine
 def free_loss() -> Claims:
     """Return the energy loss per mass of a free motion, swing = omega q_0 and speed = q_0'."""
     B, even, odd, fading = sp.symbols("B even odd fading")
@@ -172,7 +190,7 @@ def power() -> Routine:
     return routine("power_lost", (omega, zeta, q_rate), (), taken, (POWER,), summary, {})
 
 
-ROUTINES = free, response, power, free_loss
+ROUTINES = free, response, free_by_response, power, free_loss
 
 
 def damping_kernels() -> Routines:

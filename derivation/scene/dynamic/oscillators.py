@@ -20,6 +20,9 @@ import numpy as np
 from derivation.scene.dynamic.modal import sine_less_one
 from generated.arrays import Double as Array
 
+SMALL = 0.5
+"""Phase below which the free motion cannot be computed from the response without cancellation."""
+
 
 @dataclass(frozen=True)
 class FreeMotion:
@@ -103,16 +106,19 @@ def response_at(
     """Fill in the response of some modes at times; return `by_q` and `by_rate` at them."""
     of = response.of(part)
     if damping_ratio:
+        from generated.damping_kernels import free_by_response, free_motion
         from generated.damping_kernels import response as damped
 
-        phase = np.multiply.outer(since, omega)
-        factors = damped(phase, np.asarray(damping_ratio))
+        phase, zeta = np.multiply.outer(since, omega), np.asarray(damping_ratio)
+        factors = damped(phase, zeta)
         rows = (values[:, k] for values in of for k in range(2))
         for row, values in zip(rows, factors, strict=True):
             row[:] = values
         np.negative(of.moved[:, 1], out=of.moved[:, 1])
-        free = FreeMotion(phase, damping_ratio)
-        return free.by_q, free.by_rate
+        moved, by_rate = free_by_response(phase, zeta, factors[0], factors[2])
+        small = phase < SMALL
+        moved[small], by_rate[small] = free_motion(phase[small], zeta)[:2]
+        return np.negative(moved, out=moved), by_rate
     half = np.multiply.outer(since, 0.5 * omega)
     versed, sine = versed_and_sine(half)
     of.drive[:, 0], of.drive[:, 1] = 1.0 - versed, sine

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mp, mpf
 
+from derivation.scene.dynamic.oscillators import FreeMotion, Response, response_at
 from generated.damping_kernels import free_loss, free_motion, power_lost, response
 
 RATIOS = [0.0, 1e-12, 1e-3, 0.05, 0.5, 0.99]
@@ -36,6 +37,16 @@ def test_free_motion_loses_no_digits(zeta: float) -> None:
             assert sine[k] == pytest.approx(float(-decay * s / root), abs=16 * ulp * size)
             rate = float(decay * (c - ratio / root * s))
             assert cosine[k] == pytest.approx(rate, abs=16 * ulp * size)
+
+
+@pytest.mark.parametrize("zeta", [ratio for ratio in RATIOS if ratio])
+def test_free_motion_by_the_response_loses_no_digits(zeta: float) -> None:
+    """Both ways to compute the free motion agree at small and at large phases."""
+    into = Response.empty((PHASES.size, 1), zeta)
+    by_q, by_rate = response_at(PHASES, np.array([1.0]), zeta, into, slice(1))
+    other = FreeMotion(PHASES[:, None], zeta)
+    assert by_q == pytest.approx(other.by_q, rel=128 * ulp, abs=8 * ulp / math.sqrt(1 - zeta))
+    assert by_rate == pytest.approx(other.by_rate, rel=128 * ulp)
 
 
 @given(

@@ -196,7 +196,7 @@ def test_smaller_budgets_are_suggested_but_not_written(folder: Path) -> None:
 
 def test_search_finds_no_error_beyond_the_budgets(folder: Path, tmp_path: Path) -> None:
     out = str(tmp_path / "worst.toml")
-    shown = run("check", "search", "--paper", str(folder), "--time", "5s", "--out", out, "--json",
+    shown = run("check", "search", "--paper", str(folder), "--time", "1s", "--out", out, "--json",
                 "-", home=folder.parent)  # fmt: skip
     rows = json.loads(shown[: shown.rindex("}") + 1])["rows"]
     assert {row["kernel"] for row in rows} >= {"F_bonded", "F_slipping", "C_slipping"}
@@ -212,7 +212,7 @@ def test_check_and_search_find_a_budget_that_is_too_small(folder: Path, tmp_path
     (paper / "budgets.toml").write_text(budgets.replace("F_bonded = 6", "F_bonded = 3"))
     run("generate", "--paper", str(paper), home=folder.parent)
     assert "NO" in run("check", "--paper", str(paper), home=folder.parent, status=1)
-    search = ["check", "search", "--paper", str(paper), "--function", "F_bonded", "--time", "3s"]
+    search = ["check", "search", "--paper", str(paper), "--function", "F_bonded", "--time", "1s"]
     run(*search, home=folder.parent, status=1)
     assert "F_bonded = {" in (paper / "reports" / "search.toml").read_text()
 

@@ -7,18 +7,20 @@ from pathlib import Path
 from typing import Any
 
 from derivation.engine.activity import Progress, quiet
-from derivation.engine.build import expect_package
-from derivation.engine.files import PACKAGE, expect_writable, measurements, write_file
-from derivation.engine.measure.domain_search import domain_targets
+from derivation.engine.files import PACKAGE, measurements, write_file
 from derivation.engine.measure.judge import Errors
 from derivation.engine.measure.point import in_both_forms
 from derivation.engine.measure.record import provenance
 from derivation.engine.measure.result import CheckResult, all_passed
 from derivation.engine.measure.search import Progress as SearchProgress
-from derivation.engine.measure.search import Search, search
-from derivation.engine.measure.search_record import SearchRecord, seconds_of
+from derivation.engine.measure.search import Search
+from derivation.engine.measure.search_record import (
+    SearchRecord,
+    recorded,
+    search_and_record,
+    seconds_of,
+)
 from derivation.engine.outputs import folder_for, plain, recorded_in, sorted_json
-from derivation.engine.paper import Paper
 from derivation.engine.text import with_items
 from derivation.plate.benchmark import run as accuracy_run
 from derivation.plate.benchmark import speed, user_calls
@@ -27,7 +29,7 @@ from derivation.plate.contact.cases.check import check as measure_contact
 from derivation.plate.contact.cases.reference_values import DIGITS
 from derivation.plate.judge import PACKAGE as GENERATED
 from derivation.plate.paper import PAPER
-from derivation.plate.search.targets import recorded, targets
+from derivation.plate.search.targets import targets
 from derivation.scene.impact import selected_effects
 from derivation.scene.model import NUMBERS, model_of
 from derivation.scene.scene import load
@@ -167,7 +169,6 @@ def search_worse(
     functions: Sequence[str] = (),
     out: Path | None = None,
     progress: SearchProgress | None = None,
-    paper: Paper | None = None,
 ) -> tuple[Search, SearchRecord]:
     """Search for larger errors for some time, and write each new worst case to a file.
 
@@ -183,8 +184,6 @@ def search_worse(
         File for the worst cases; by default ``search.toml`` in the paper's report folder.
     progress
         Called at each function's turn.
-    paper
-        The paper of the functions; by default that on plates.
 
     Returns
     -------
@@ -199,17 +198,6 @@ def search_worse(
         If the file cannot be written.
     """
     seconds = seconds_of(duration)
-    if paper is None:
-        chosen, known = targets(functions), recorded(PAPER.measured, MEASURED_CONTACT)
-    else:
-        expect_package(paper)
-        chosen, known = (
-            domain_targets(paper.judge(), paper.chain, functions),
-            recorded(paper.measured),
-        )
-    path = folder_for(None, (paper or PAPER).report_folder) / "search.toml" if out is None else out
-    expect_writable(path)
-    book = SearchRecord(path, chosen, *known)
-    result = search(chosen, seed, seconds, progress=progress, keep=book.keep)
-    book.keep(result)
-    return result, book
+    known = recorded(PAPER.measured, MEASURED_CONTACT)
+    path = folder_for(None, PAPER.report_folder) / "search.toml" if out is None else out
+    return search_and_record(targets(functions), known, seconds, seed, path, progress)

@@ -1,5 +1,6 @@
 """Subcommands of `platecontact check` that test generated functions."""
 
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -98,7 +99,6 @@ def search(
 
     Example: platecontact check search --time 5m --function G --out worst.toml
     """
-    from derivation import pipeline
     from derivation.engine.measure.search_record import (
         COLUMNS,
         all_within_allowance,
@@ -107,9 +107,14 @@ def search(
         cells,
     )
 
-    own = None if paper is None else chosen_paper(paper)
+    if paper is None:
+        from derivation.pipeline import search_worse
+    else:  # without the modules of the plate, which take seconds to load
+        from derivation.engine.build import search as search_paper
+
+        search_worse = partial(search_paper, chosen_paper(paper))
     with search_clock("search") as progress:
-        results, book = pipeline.search_worse(time, seed, function or [], out, progress, own)
+        results, book = search_worse(time, seed, function or [], out, progress)
     if write_json_output(lambda: as_data(results), json):
         table(f"Search, seed {seed}", COLUMNS, [cells(k, results, book) for k in results.states])
         listing("Worst arguments", [arguments(k, results) for k in results.states])

@@ -38,6 +38,9 @@ from derivation.engine.rewrite.form import Form
 if TYPE_CHECKING:
     from derivation.engine.measure.check import Row
     from derivation.engine.measure.hard import HardRow
+    from derivation.engine.measure.search import Progress as SearchProgress
+    from derivation.engine.measure.search import Search
+    from derivation.engine.measure.search_record import SearchRecord
     from derivation.engine.rewrite.account import Account
 
 Timed = Callable[[str], AbstractContextManager[Progress]]
@@ -258,6 +261,42 @@ def check_hard(
     write_file(paper.hard, hard.to_json(rows, paper.package().target))
     part.unlink()
     return rows
+
+
+def search(
+    paper: Paper,
+    duration: str,
+    seed: int = 1,
+    functions: Sequence[str] = (),
+    out: Path | None = None,
+    progress: "SearchProgress | None" = None,
+) -> "tuple[Search, SearchRecord]":
+    """Search for larger errors for some time, and write each new worst case to a file.
+
+    Parameters
+    ----------
+    paper
+        The paper.
+    duration, seed, functions, out, progress
+        As for `derivation.pipeline.search_worse`.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no generated package.
+    ValueError
+        If the duration or a function name is invalid, or the file is not one of worst cases.
+    OSError
+        If the file cannot be written.
+    """
+    from derivation.engine.measure.domain_search import domain_targets
+    from derivation.engine.measure.search_record import recorded, search_and_record, seconds_of
+
+    seconds = seconds_of(duration)
+    expect_package(paper)
+    chosen = domain_targets(paper.judge(), paper.chain, functions)
+    path = folder_for(None, paper.report_folder) / "search.toml" if out is None else out
+    return search_and_record(chosen, recorded(paper.measured), seconds, seed, path, progress)
 
 
 def report(

@@ -224,10 +224,13 @@ def sources(*rooms: str | Path) -> Iterator[Path]:
     """Yield source files in a fixed order: of folders those in ``.py``, ``.j2`` and ``.toml``.
 
     Text names a folder or a file of this package, or is a pattern like
-    ``mathematics/*/theory*``; other folders and files are given by path.
+    ``mathematics/*/theory*``; other folders and files are given by path. Compiled modules are no
+    sources: they differ between checkouts, and are younger than the process that compiles them.
     """
     for room in rooms:
         for path in sorted(PACKAGE.glob(room)) if isinstance(room, str) else [room]:
+            if path.parent.name == "__pycache__":
+                continue
             if path.is_dir():
                 own = (p for p in path.rglob("*") if p.suffix in {".py", ".j2", ".toml"})
                 yield from sorted(own)

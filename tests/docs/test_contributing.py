@@ -78,19 +78,22 @@ chain.MOTION_STEPS = tuple(step for step in chain.MOTION_STEPS if step[0] == "me
 """
 DERIVE = f"{SHORT_CHAIN}sys.exit(main(sys.argv[1:]))"
 # The new formulas are derived, and the new routines are proved. All others are taken from the
-# checkout, where other tests derive and prove them: this saves half an hour.
+# checkout with their proofs, because other tests derive and prove them: this saves half an hour.
 WHOLE = """
 import pickle
 import sys
 from pathlib import Path
 from derivation.engine import package
 from derivation.engine.emit import routine as routines
+from derivation.engine.formula import proof
 from derivation.engine.formula.chain import Chain
 from derivation.engine.rewrite.form import form
 steps, findings, made, known_blocks, families, functions, kept = pickle.loads(
     Path(sys.argv[1]).read_bytes()
 )
-strict, prove = routines.prove, routines.routine
+strict, prove = proof.prove, routines.routine
+proved = {(f.proof.step, f.proof.argument): f.proof for _, records in steps for f in records}
+proof.prove = lambda *step, **_: proved.get(step[:2]) or strict(*step)
 routines.prove = lambda step, argument, residuals: strict(
     step, argument, residuals or {"proved from the checkout": 0}
 )

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 import sympy as sp
 
-from derivation.engine import build, cache
+from derivation.engine import build, cache, files
 from derivation.engine.cache import cache_folder, cached, from_plain, in_file, to_plain
 from derivation.engine.formula.proof import Proof
 from derivation.engine.rewrite.form import Block, Branch, Form, Step, Switch
@@ -65,6 +65,14 @@ def test_result_of_sources_that_were_edited_since_their_import_is_not_kept(
     assert cached("x", (source,), compute) == cached("x", (source,), compute) == VALUE
     assert len(calls) == 2
     assert not list(folder.iterdir())
+
+
+def test_compiled_modules_are_no_sources(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(files, "PACKAGE", tmp_path)
+    for name in ("plate/contact/oracle.py", "plate/__pycache__/oracle.cpython-311.pyc"):
+        (tmp_path / name).parent.mkdir(parents=True)
+        (tmp_path / name).touch()
+    assert [path.name for path in files.sources("plate/*/oracle*")] == ["oracle.py"]
 
 
 def test_results_of_a_function_are_computed_once_for_each_argument(folder: Path) -> None:

@@ -9,6 +9,7 @@ import socket
 import subprocess
 import sys
 import time
+import weakref
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -158,14 +159,21 @@ def test_missing_scheduler_is_reported(
 
 def test_a_client_that_fails_is_closed_immediately(monkeypatch: pytest.MonkeyPatch) -> None:
     """Otherwise Python may close it in the thread of a new client, which then waits for itself."""
+    clients = list[weakref.ref[distributed.Client]]()
+    created = distributed.Client.__init__
+
+    def noted(client: distributed.Client, *arguments: Any, **others: Any) -> None:
+        clients.append(weakref.ref(client))
+        created(client, *arguments, **others)
+
+    monkeypatch.setattr(distributed.Client, "__init__", noted)
     monkeypatch.setattr(run, "PATIENCE", 0.2)
-    gc.collect()
     gc.disable()
     try:
         for address in ("tcp://127.0.0.1:9", "nowhere:x"):
             with pytest.raises(pc.SceneError), run._client(address, 1):
                 pass
-        assert not any(isinstance(each, distributed.Client) for each in gc.get_objects())
+        assert [client() for client in clients] == [None, None]
     finally:
         gc.enable()
 

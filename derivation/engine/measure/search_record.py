@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from derivation.engine.files import write_file
+from derivation.engine.files import expect_writable, write_file
 from derivation.engine.measure.case import CAUSE_TEXTS, HardCase, read_cases
 from derivation.engine.measure.point import Point, in_both_forms
-from derivation.engine.measure.search import LargeError, Search, point_error
+from derivation.engine.measure.search import LargeError, Progress, Search, point_error, search
 from derivation.engine.measure.target import Target
 from derivation.engine.outputs import plain
 from derivation.engine.text import with_items
@@ -39,6 +39,47 @@ def seconds_of(duration: str) -> int:
     if match is None:
         raise ValueError(f"--time: expected a duration like 30s, 5m or 1h, got {duration!r}")
     return int(match[1]) * _SECONDS[match[2]]
+
+
+# --- a search with its record
+
+
+def recorded(
+    check: Path, other: Path | None = None
+) -> tuple[dict[str, float], dict[str, list[str]]]:
+    """Return the worst ratios of a saved check, and the worst arguments of another one."""
+    rows = json.loads(check.read_text())["rows"] if check.is_file() else []
+    ratios = {row["kernel"]: row["double"]["ratio"] for row in rows}
+    worst = json.loads(other.read_text())["rows"] if other and other.is_file() else []
+    return (
+        # An infinity is text there.
+        {kernel: float(ratio) for kernel, ratio in ratios.items() if ratio is not None},
+        {row["kernel"]: row["worst"] for row in worst},
+    )
+
+
+def search_and_record(
+    chosen: Sequence[Target],
+    known: tuple[dict[str, float], dict[str, list[str]]],
+    seconds: int,
+    seed: int,
+    path: Path,
+    progress: Progress | None = None,
+) -> "tuple[Search, SearchRecord]":
+    """Search for some time, and write each case that is worse than the known ones to a file.
+
+    Raises
+    ------
+    ValueError
+        If the file exists and does not contain worst cases.
+    OSError
+        If the file cannot be written.
+    """
+    expect_writable(path)
+    book = SearchRecord(path, chosen, *known)
+    result = search(chosen, seed, seconds, progress=progress, keep=book.keep)
+    book.keep(result)
+    return result, book
 
 
 # --- cases

@@ -2,10 +2,8 @@
 
 import importlib
 import inspect
-import json
 from collections.abc import Sequence
 from functools import lru_cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -64,22 +62,6 @@ def targets(names: Sequence[str] = ()) -> tuple[Target, ...]:
     chosen_targets = [closed_target(domain_of_row(row), kernel) for row, kernel in closed]
     chosen_targets += [_law_target(name) for name in LAW]
     return named_targets(chosen_targets, names)
-
-
-def recorded(
-    check: Path, contact: Path | None = None
-) -> tuple[dict[str, float], dict[str, list[str]]]:
-    """Return the worst ratios of the committed check, and worst arguments of the contact law."""
-    rows = json.loads(check.read_text())["rows"] if check.is_file() else []
-    ratios = {row["kernel"]: row["double"]["ratio"] for row in rows}
-    worst = (
-        json.loads(contact.read_text())["rows"] if contact is not None and contact.is_file() else []
-    )
-    return (
-        # An infinity is text there.
-        {kernel: float(ratio) for kernel, ratio in ratios.items() if ratio is not None},
-        {row["kernel"]: row["worst"] for row in worst},
-    )
 
 
 # --- closed formulas, modal sums and tables

@@ -24,13 +24,14 @@ from derivation.engine.measure.search_record import (
     case_of,
     measured_case,
     read,
+    recorded,
     seconds_of,
     to_toml,
 )
 from derivation.engine.measure.target import Target
 from derivation.plate.judge import generated_kernels
 from derivation.plate.search.draw import domain_of
-from derivation.plate.search.targets import closed_target, recorded, targets
+from derivation.plate.search.targets import closed_target, targets
 
 NOWHERE = Path("/nonexistent")
 FAST = ("p", "sonine", "delta", "bessel_j0", "bessel_j1", "bessel_j0_zeros")

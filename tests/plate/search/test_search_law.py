@@ -17,13 +17,19 @@ from derivation.engine.measure.case import HardCase, read_cases
 from derivation.engine.measure.judge import Error
 from derivation.engine.measure.point import Point
 from derivation.engine.measure.search import LargeError, TargetSearch
-from derivation.engine.measure.search_record import SearchRecord, as_data, case_of, to_toml
+from derivation.engine.measure.search_record import (
+    SearchRecord,
+    as_data,
+    case_of,
+    recorded,
+    to_toml,
+)
 from derivation.engine.measure.target import Numbers, Target
 from derivation.plate.contact.cases import judge as contact_judge
 from derivation.plate.contact.cases.reference_values import reference_value
 from derivation.plate.contact.oracle import balls as contact_balls
 from derivation.plate.search.draw import domain_of, draw
-from derivation.plate.search.targets import recorded, targets
+from derivation.plate.search.targets import targets
 from generated.contact_law import indentation
 from generated.impact import impact
 

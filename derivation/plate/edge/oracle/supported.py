@@ -30,10 +30,11 @@ from derivation.plate.contact.oracle.balls import ratio_of, refine_to_digits
 
 
 class EdgeKernel(NamedTuple):
-    """k on the real axis, k(iy), and the coefficients of the power series of k(iy)."""
+    """k on the real axis, k(iy), e^(-y) k(iy), and coefficients of the power series of k(iy)."""
 
     real: Callable[[arb], arb]
     turned: Callable[[acb], acb]
+    scaled: Callable[[acb], acb]
     power: Callable[[int], flint.fmpq]
 
 
@@ -41,18 +42,25 @@ KERNELS = {
     "indentation": EdgeKernel(
         lambda y: 3 * (y.sin() - y * y.cos()) / y**3,
         lambda y: 3 * (y * y.cosh() - y.sinh()) / y**3,
+        lambda y: 3 * (y - 1 + (y + 1) * (-2 * y).exp()) / (2 * y**3),
         lambda m: flint.fmpq(6 * (m + 1), math.factorial(2 * m + 3)),
     ),
     "slope": EdgeKernel(
         lambda y: 3 * y.sin() / (2 * y),
         lambda y: 3 * y.sinh() / (2 * y),
+        lambda y: 3 * (1 - (-2 * y).exp()) / (4 * y),
         lambda m: flint.fmpq(3, 2 * math.factorial(2 * m + 1)),
     ),
     "point load": EdgeKernel(
-        lambda _: arb(1), lambda _: acb(1), lambda m: flint.fmpq(int(m == 0), 1)
+        lambda _: arb(1),
+        lambda _: acb(1),
+        lambda y: (-y).exp(),
+        lambda m: flint.fmpq(int(m == 0), 1),
     ),
 }
 """Weight functions by kind; `power(m)` is the coefficient of y^(2m) in k(iy)."""
+LARGE = 64
+"""Least y at which the integrand is computed without growing factors."""
 
 
 def edge_part(
@@ -161,7 +169,8 @@ def alternating_sum(kind: str, width: Fraction, bits: int) -> arb:
 
     From 0 to 1 by power series. From 1 on, the first term gives k(0); the part of the second
     beyond `end` is below (9/2) e^(-(1 - alpha) y)/((1 - alpha) y^(3/2)) there, because
-    |k(iy)| <= (3/2) e^y and I0 >= e^y/(3 sqrt y).
+    |k(iy)| <= (3/2) e^y and I0 >= e^y/(3 sqrt y). Without their growth, k and I0 have narrow balls
+    in wide intervals, so that few intervals are needed.
     """
     kernel = KERNELS[kind]
     left = 1 - width
@@ -169,13 +178,19 @@ def alternating_sum(kind: str, width: Fraction, bits: int) -> arb:
     spare = 3 * max(0, -math.frexp(float(width))[1]) + 16
     with flint.ctx.workprec(bits + spare):
         alpha, last = to_ball(width), arb(end)
+
+        def plain(y: acb, _: bool) -> acb:
+            return kernel.turned(alpha * y) / (y * y * y.bessel_i(0))
+
+        def decaying(y: acb, _: bool) -> acb:
+            fading = (-to_ball(left) * y).exp()
+            return kernel.scaled(alpha * y) * fading / (y * y * y.bessel_i(0, scaled=True))
+
         near = acb.integral(lambda y, _: _near(kernel, alpha, y), 0, 1).real
         cut, total = 1, near + arb(kernel.power(0))
         while cut < end:  # panels of growing size: on a single one the balls are too wide
             upto = min(2 * cut, end)
-            total -= acb.integral(
-                lambda y, _: kernel.turned(alpha * y) / (y * y * y.bessel_i(0)), cut, upto
-            ).real
+            total -= acb.integral(decaying if cut >= LARGE else plain, cut, upto).real
             cut = upto
         rest = 9 * (-to_ball(left) * last).exp() / (2 * to_ball(left) * last**2 / last.sqrt())
         return (total + arb(0, rest.abs_upper())) / arb.pi()

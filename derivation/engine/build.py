@@ -11,7 +11,7 @@
 import importlib
 import json
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,6 +21,7 @@ from derivation.engine import package
 from derivation.engine.activity import Progress, quiet
 from derivation.engine.emit.freshness import Freshness
 from derivation.engine.errata.findings import Finding
+from derivation.engine.errata.point import GivenPoint
 from derivation.engine.errata.text import TextDiagnosis, diagnose_limited
 from derivation.engine.files import write_file
 from derivation.engine.formula.chain import Found
@@ -318,12 +319,7 @@ def formulas(paper: Paper) -> dict[str, Record]:
 
 
 def diagnose(
-    paper: Paper,
-    name: str,
-    text: str,
-    latex: bool = False,
-    at: str | Mapping[str, object] = "",
-    digits: int = 50,
+    paper: Paper, name: str, text: str, latex: bool = False, at: GivenPoint = "", digits: int = 50
 ) -> TextDiagnosis:
     """Compare a formula given as text with the derived one; see `derivation.diagnose`."""
     relations = paper.errata.relations

@@ -1,8 +1,7 @@
 """Cached results of the first stages: proved formulas, misprints, comparisons of formulas."""
 
-from collections.abc import Mapping
-
 from derivation.engine.errata.findings import Finding
+from derivation.engine.errata.point import GivenPoint
 from derivation.engine.errata.text import TextDiagnosis, diagnose_limited
 from derivation.engine.formula.chain import Chain, DerivationStep
 from derivation.plate.chain import MOTION_STEPS, STEPS
@@ -35,7 +34,7 @@ def misprints() -> tuple[Finding, ...]:
 
 
 def diagnose(
-    name: str, text: str, latex: bool = False, at: str | Mapping[str, object] = "", digits: int = 50
+    name: str, text: str, latex: bool = False, at: GivenPoint = "", digits: int = 50
 ) -> TextDiagnosis:
     """Compare a formula given as text with the derived one.
 

@@ -18,6 +18,9 @@ _CANDIDATES = ("0.5", "0.1", "0.01", "1", "2", "10", "-1")
 _SCALES = ("10", "0.1", "100", "0.01")
 """Factors of a default value, tried in turn if a formula has no real value."""
 
+GivenPoint = str | Mapping[str, object]
+"""A point as a user gives it: ``phi=2.5,h=0.1``, or a mapping from names to values."""
+
 
 def default_value(argument: Argument, values: Mapping[str, str]) -> str:
     """Return a value [SI] inside the symbol's own domain.
@@ -35,7 +38,7 @@ def default_value(argument: Argument, values: Mapping[str, str]) -> str:
     raise FormulaError(f"no default value of {argument.name} is known: add it to the point")
 
 
-def parse_point(given: str | Mapping[str, object]) -> dict[str, str]:
+def parse_point(given: GivenPoint) -> dict[str, str]:
     """Return values by symbol name, from ``phi=2.5,h=0.1`` or a mapping such as ``{"phi": 2.5}``.
 
     Raises

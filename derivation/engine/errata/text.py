@@ -21,7 +21,13 @@ from derivation.engine.errata.equation import (
     right_hand_side,
 )
 from derivation.engine.errata.lookup import comparable, known_formula, resolve
-from derivation.engine.errata.point import completed_point, exact_values, other_points, parse_point
+from derivation.engine.errata.point import (
+    GivenPoint,
+    completed_point,
+    exact_values,
+    other_points,
+    parse_point,
+)
 from derivation.engine.errata.relations import Point, Relations
 from derivation.engine.errata.written_out import written_out
 from derivation.engine.formula.ball import PrecisionError, enclose, evaluate, to_ball
@@ -196,7 +202,7 @@ def diagnose_limited(
     text: str,
     *,
     latex: bool = False,
-    at: str | Mapping[str, object] = "",
+    at: GivenPoint = "",
     digits: int = 50,
 ) -> TextDiagnosis:
     """Compare as `diagnose_text` does, with limits of time and memory.

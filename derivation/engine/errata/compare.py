@@ -309,15 +309,15 @@ def _confused_formulas(
 ) -> Iterator[tuple[Repair, sp.Expr | None]]:
     """Yield other derived formulas that equal the given one, such as that of the other face."""
     derived = case.formula
-    for other in _formulas_with_values(case, formulas, case.have):
-        if other.unit == derived.unit:
-            faces = all("face" in record.meaning.split() for record in (other, derived))
-            says = (
-                f"this is {other.name} ({to_plain(other.meaning)}); {derived.name} "
-                f"({to_plain(derived.meaning)}) is {derived.expression}"
-            )
-            repair = Repair(FACE if faces else OTHER, says, derived.expression, 1)
-            yield repair, other.expression / derived.expression
+    like = {name: other for name, other in formulas.items() if other.unit == derived.unit}
+    for other in _formulas_with_values(case, like, case.have):
+        faces = all("face" in record.meaning.split() for record in (other, derived))
+        says = (
+            f"this is {other.name} ({to_plain(other.meaning)}); {derived.name} "
+            f"({to_plain(derived.meaning)}) is {derived.expression}"
+        )
+        repair = Repair(FACE if faces else OTHER, says, derived.expression, 1)
+        yield repair, other.expression / derived.expression
 
 
 def _formulas_with_values(
@@ -327,10 +327,11 @@ def _formulas_with_values(
     points = case.search.points
     for name in comparable(formulas):
         expression = formulas[name].expression
-        evaluable = points.evaluable((expression,))
+        if name == case.formula.name or not points.evaluable((expression,)):
+            continue
         if expression.has(sp.Integral) and not case.given.has(sp.Integral):
             continue  # an integral takes longer than all closed forms together
-        if evaluable and name != case.formula.name and points.same(expression, values):
+        if points.same(expression, values):
             yield formulas[name]
 
 

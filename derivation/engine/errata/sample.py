@@ -9,6 +9,7 @@ import random
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from math import log2
 
 import flint
@@ -77,13 +78,20 @@ class Sample:
     def evaluable(self, expressions: Iterable[sp.Expr]) -> tuple[sp.Expr, ...]:
         """Return the expressions that do not contain a variable of integration."""
         known = self.known[0]
-        return tuple(e for e in expressions if e.free_symbols <= known.keys())
+        return tuple(e for e in expressions if _symbols(e) <= known.keys())
 
     def same(self, expression: sp.Expr, values: Values) -> bool:
         """Return whether an expression has these values at every point."""
         return all(
             agree(self.value(expression, point), value) for point, value in enumerate(values)
         )
+
+
+@lru_cache(maxsize=4096)
+def _symbols(expression: sp.Expr) -> set[sp.Basic]:
+    """Return the free symbols, which SymPy collects again in each call."""
+    symbols: set[sp.Basic] = expression.free_symbols
+    return symbols
 
 
 def agree(x: flint.acb, y: flint.acb) -> bool:

@@ -1,6 +1,7 @@
 """Mistakes in a user's paper: one message that states the position and the remedy."""
 
 import re
+from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
 
@@ -191,15 +192,21 @@ MISTAKES = {
 }
 
 
+@pytest.fixture(scope="module", autouse=True)
+def _cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Share stable forms of formulas that no mistake changes; they take most of the time."""
+    with pytest.MonkeyPatch.context() as environment:
+        environment.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
+        yield
+
+
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_mistake_stops_generation_with_one_message(
     mistake: str,
     tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     file, (old, new), message, status = MISTAKES[mistake]
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     folder = tmp_path / "film"
     assert main(["new", str(folder)]) == 0
     text = (folder / file).read_text()
@@ -245,7 +252,6 @@ def test_a_routine_of_a_paper_is_proved_tested_and_printed(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     folder = tmp_path / "film"
     assert main(["new", str(folder)]) == 0
     text = (folder / "kernels.py").read_text()

@@ -327,11 +327,10 @@ def _formulas_with_values(
     points = case.search.points
     for name in comparable(formulas):
         expression = formulas[name].expression
-        if name == case.formula.name or not points.evaluable((expression,)):
-            continue
         if expression.has(sp.Integral) and not case.given.has(sp.Integral):
             continue  # an integral takes longer than all closed forms together
-        if points.same(expression, values):
+        evaluable = name != case.formula.name and points.evaluable((expression,))
+        if evaluable and points.same(expression, values):
             yield formulas[name]
 
 

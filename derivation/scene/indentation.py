@@ -215,6 +215,8 @@ def static_law(scene: Scene) -> ContactLaw:
 
 def _numbers(name: str, values: Values) -> list[float]:
     """Return the given values after checking that each is a positive number."""
+    if isinstance(values, np.ndarray) and values.ndim == 0:
+        values = values[()]
     listed = list(values) if isinstance(values, Iterable) else [values]
     if isinstance(values, np.ndarray) and values.ndim > 1:
         raise SceneError(f"{name}: expected a sequence of numbers, got {values.ndim} dimensions")
@@ -377,4 +379,4 @@ def _with_slope(law: ContactLaw, name: str, a: float) -> tuple[float, float]:
         "force": (at.force, at.force_a),
         "contact_radius": (at.radius, at.radius_a),
     }[name]
-    return value, slope * a / value
+    return value, slope * a / value if value else math.nan  # 0 by underflow

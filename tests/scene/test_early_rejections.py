@@ -162,6 +162,24 @@ def test_tolerance_in_an_early_message_can_be_met() -> None:
     assert met.accuracy.bound <= tolerance
 
 
+def test_no_tolerance_above_1_is_recommended() -> None:
+    """A message recommended to increase the tolerance to 42, although 1 is the largest."""
+    scene: dict[str, Any] = {
+        "sphere": {
+            "radius": 0.043, "density": 1160.0, "youngs_modulus": 1.8e6, "poissons_ratio": 0.2,
+        },
+        "plate": {
+            "radius": 0.057, "thickness": 0.023, "youngs_modulus": 1.5e7, "poissons_ratio": 0.4,
+            "density": 6300.0, "edge": "clamped", "retardation_time": 8e-7,
+        },
+        "impact": {"speed": 3e-3, "gravity": 9.81},
+    }  # fmt: skip
+    text = rejection(scene | {"accuracy": {"rtol": 1e-4}})
+    assert text.startswith("rtol: expected no tolerance, because")
+    assert "; remove the tolerance, or" in text
+    assert simulate(read(scene)).accuracy.bound > 1.0
+
+
 def test_a_sphere_far_too_heavy_is_rejected_before_its_contact_is_tabulated(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -74,3 +74,16 @@ def test_extreme_scenes_give_numbers_or_an_error(
     except SceneError as error:
         words = str(error)
     assert not words or "; " in words  # what is expected, and what to do
+
+
+def test_force_that_underflows_is_rejected() -> None:
+    """It was a division by zero."""
+    with pytest.raises(SceneError, match="no finite number"):
+        indent(read(tables()), force=1e-320)
+
+
+def test_arrays_without_a_dimension_are_numbers() -> None:
+    """A tolerance was rejected as outside of its own range, and a force could not be iterated."""
+    scene = read(tables(**{"plate.thickness": 0.1}))
+    assert simulate(scene, rtol=np.array(0.01)).max_force == simulate(scene, rtol=0.01).max_force
+    assert indent(scene, force=np.array(5.0))[0] == indent(scene, force=5.0)[0]

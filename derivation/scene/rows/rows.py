@@ -41,7 +41,7 @@ from derivation.scene.rows.static_rows import impacts_of
 from derivation.scene.rows.warnings import warnings_of_rows
 from derivation.scene.scene import OUTPUTS, Scene, outputs_of, read
 from derivation.scene.selection.selection import check_enabled
-from derivation.scene.tensile_stress import static_errors
+from derivation.scene.tensile_stress import static_errors, vibration
 from generated.arrays import Double as Array
 
 BLOCK = 2**15
@@ -324,7 +324,8 @@ class _Block:
         periods = plate_times(law.model).period if np.any(law.model.density) else 0.0
         times = impacts.contact_time[:, None]
         with np.errstate(all="ignore"):
-            errors = static_errors(law, a, deflection, times, periods, group.held)
+            change = vibration(law, numbers["max_tensile_stress"][:, None], P, times, periods, 1.0)
+            errors = static_errors(law, a, deflection, change, group.held)
         numbers_and_errors = numbers | {
             "pressure_error": pressure_error
             + np.expm1(np.log1p(bound_with(on_pressure)) + 2.0 * np.log1p(on_pressure)),

@@ -56,6 +56,8 @@ def check_rtol(rtol: float) -> float:
     SceneError
         If it is not between 1e-13 and 1.
     """
+    if isinstance(rtol, np.ndarray) and rtol.ndim == 0:
+        rtol = rtol[()]
     number = isinstance(rtol, Real) and not isinstance(rtol, bool)  # NumPy's numbers too
     if not number or not TIGHTEST <= rtol <= 1:
         raise SceneError(
@@ -286,9 +288,12 @@ def dynamic_impact(
             math.expm1(math.log1p(selected.error) + math.log1p(part))
             for part in (error.least, error.change)
         )
+        expected, larger = f"at least about {rounded_up(least)}", "increase"
+        if not least <= 1.0:
+            expected, larger = "no tolerance", "remove"
         raise ToleranceError(
-            f"rtol: expected at least about {rounded_up(least)}, because {error.why}, got "
-            f"{rtol:.3g}; increase the tolerance, or {error.remedy}",
+            f"rtol: expected {expected}, because {error.why}, got {rtol:.3g}; {larger} the "
+            f"tolerance, or {error.remedy}",
             change,
         ) from None
 

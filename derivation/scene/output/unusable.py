@@ -93,17 +93,34 @@ def _by_stretching(result: "Result") -> str:
     }
     if not parts:
         return ""
-    thickness, remedies = 2.0 * float(model.h), []
+    thickness, remedies, slow = 2.0 * float(model.h), [], False
     for name, part in sorted(parts.items(), key=lambda item: -item[1]):
-        speed = " ".join(prefixed(model.v0 * part, "m/s", 2))
-        thicker = " ".join(prefixed(thickness * part ** (-1.0 / THICKER), "m", 2))
-        remedies.append(f"{name.replace('_', ' ')} {speed} or {thicker}")
+        either = " ".join(prefixed(thickness * part ** (-1.0 / THICKER), "m", 2))
+        if slower := _slower(part, model.m * model.gravity / result.max_force):
+            speed, slow = " ".join(prefixed(model.v0 * slower, "m/s", 2)), True
+            either = f"{speed} or {either}"
+        remedies.append(f"{name.replace('_', ' ')} {either}")
     times, worst = deflections.largest / thickness, max(by_it.values())
     return (
         f"The plate deflects by {times:.2g} thicknesses and stretches, which the model neglects "
-        f"(error {up_to(worst)}). Speed or thickness for an error of about "
-        f"{percent(USABLE)}: {', '.join(remedies)}."
+        f"(error {up_to(worst)}). {'Speed or thickness' if slow else 'Thickness'} for an error of "
+        f"about {percent(USABLE)}: {', '.join(remedies)}."
     )
+
+
+def _slower(part: float, weight: float) -> float:
+    """Return the part of the speed at which a plate deflects by a part of its deflection [1].
+
+    It is 0 if the weight alone deflects it more. Under a sphere of weight mg a spring k deflects by
+    w with w^2 - 2 w mg/k = (v0^2 m)/k.
+
+    Parameters
+    ----------
+    weight
+        Weight of the sphere over the largest force [1].
+    """
+    square = part * (part - 2.0 * weight)
+    return math.sqrt(square / (1.0 - 2.0 * weight)) if square > 0.0 else 0.0
 
 
 def _by_sphere(result: "Result") -> str:

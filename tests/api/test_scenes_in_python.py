@@ -90,6 +90,9 @@ def test_numpy_numbers_are_accepted() -> None:
     scene = pc.read(VALID | {"impact": {"speed": np.float64(2.0)}})
     assert json.dumps(scene.to_json())
     assert "got true" in message(pc.Impact, speed=True)
+    assert "got true" in message(pc.Impact, speed=np.bool_(True))
+    assert pc.Effects(inertia=np.bool_(False)) == pc.Effects(inertia=False)
+    assert pc.Impact(speed=np.array(2.0)) == pc.Impact(speed=2.0)
     assert "got nan" in message(pc.Impact, speed=np.float64("nan"))
 
 

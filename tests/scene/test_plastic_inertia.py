@@ -9,9 +9,11 @@ from typing import Any
 import pytest
 
 from derivation.checks import inertia as inertia_check
-from derivation.scene import read, simulate
+from derivation.scene import Inertia, read, simulate
 from derivation.scene.contact_law.law import ContactLaw
-from derivation.scene.dynamic import waves
+from derivation.scene.dynamic import contact_errors, waves
+from derivation.scene.dynamic.wave_problem import problem_of
+from derivation.scene.effects import PAPER
 from derivation.scene.errors import ToleranceError
 from derivation.scene.model import InertiaSettings, Model
 from derivation.scene.result import Result
@@ -155,6 +157,19 @@ def test_message_on_stiff_unloading_does_not_mention_the_plate_curvature() -> No
     few = simulate(read(scene | {"inertia": {"modes": 17, "branches": "A0"}}))
     assert mended.complete
     assert largest_difference(mended, few) < 1e-3
+
+
+@pytest.mark.parametrize("modes", [2, 3, 4, 9])
+def test_message_on_stiff_unloading_names_only_numbers_of_modes_that_are_accepted(
+    modes: int,
+) -> None:
+    """An earlier message recommended a single mode, which is not accepted."""
+    law = ContactLaw(plastic_model(0), PAPER | {"inertia", "plasticity"})
+    error = contact_errors._stiff_unloading(problem_of(law, modes), 0.0)
+    found = re.search(r"inertia\.modes to at most (\d+)", str(error))
+    assert bool(found) == (modes >= 4)
+    if found:
+        assert Inertia(modes=int(found[1])).modes == modes // 2
 
 
 def test_plate_has_no_more_modes_than_a_stiff_unloading_allows() -> None:

@@ -33,6 +33,8 @@ WIDE = 1.01
 modes."""
 HEAVY = 10.0
 """Sphere mass over mass of the first mode above which the plate acts as a spring."""
+FEWEST = 2
+"""Least number of modes that a scene may give."""
 SHARP = 0.05
 """Slope of the gap over that without vibration below which the contact is no longer circular."""
 
@@ -174,7 +176,10 @@ def no_solution(
 def _stiff_unloading(problem: DynamicProblem, time: float) -> StiffUnloadingError:
     """Return the error of a yielded contact that is not circular with so many modes."""
     modes = problem.contact.modes
-    remedy = f"set inertia.modes to at most {max(1, modes.first.size // 2)}"
+    fewer = modes.first.size // 2
+    remedy = "reduce impact.speed, or set effects.plasticity = false for an elastic contact"
+    if fewer >= FEWEST:
+        remedy = f"set inertia.modes to at most {fewer}"
     if modes.first.size < modes.omega.size:
         remedy += ', or inertia.branches to "A0"'
     return StiffUnloadingError(

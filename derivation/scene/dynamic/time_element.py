@@ -40,7 +40,6 @@ A, V, Z, P, W, E, LOST, LEAK, DAMPED, C = range(10)
 the plate; per x the energies lost in the contact, by the pointwise coupling and by damping of the
 plate; and the contact radius, which differs from that of the law by the curvature of the plate."""
 
-
 SEVERAL = 4
 """Number of modes per shape from which a matrix for each shape saves time."""
 

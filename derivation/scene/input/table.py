@@ -241,11 +241,13 @@ def in_words(texts: Sequence[Callable[[], str]]) -> str:
 
 
 def plain_keys(keys: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the keys with NumPy numbers converted to Python numbers."""
+    """Return the keys with NumPy's values without a dimension converted to those of Python."""
     return {key: _plain_number(value) for key, value in keys.items()}
 
 
 def _plain_number(value: Any) -> Any:
+    if getattr(value, "shape", None) == ():
+        value = value.item()
     if isinstance(value, (bool, int)) or not isinstance(value, Real):
         return value
     return int(value) if isinstance(value, Integral) else float(value)

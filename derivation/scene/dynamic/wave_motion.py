@@ -14,7 +14,7 @@ from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import local_indentation
 from derivation.scene.dynamic.contact_sequence import ImpactHistory
 from derivation.scene.dynamic.first_contact import EVALUATIONS, IRREGULAR, decisive_change, minima
-from derivation.scene.dynamic.history_at import deflections, rows_of
+from derivation.scene.dynamic.history_at import ROUNDED, deflections, rows_of
 from derivation.scene.dynamic.time_element import A, C, E, P, V, W, Z
 from derivation.scene.effects.effect import Results
 from derivation.scene.output.html import html_table
@@ -331,7 +331,9 @@ class DynamicImpact(Motion):
         problem, t = self.impact_history.problem, np.asarray(times, dtype=np.float64)
         found = np.zeros((C + 1, t.size))
         starts = np.array([touching.start for touching in self.impact_history.contacts])
-        place = np.maximum(np.searchsorted(starts, t / problem.T, side="right") - 1, 0)
+        # A time that rounding moves before the start of a contact belongs to it.
+        begun = t / problem.T * (1.0 + ROUNDED)
+        place = np.maximum(np.searchsorted(starts, begun, side="right") - 1, 0)
         for index in sorted(set(place.tolist())):
             here = place == index
             found[:, here] = rows_of(

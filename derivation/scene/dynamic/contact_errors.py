@@ -17,6 +17,7 @@ from derivation.scene.errors import (
     WideContactError,
     wide_contact,
 )
+from derivation.scene.input.settings import FEWEST_MODES
 
 STUCK = 1e-7
 """Length of an element in x, over max(x, 1), below which the simulation ends if the element has no
@@ -33,8 +34,6 @@ WIDE = 1.01
 modes."""
 HEAVY = 10.0
 """Sphere mass over mass of the first mode above which the plate acts as a spring."""
-FEWEST = 2
-"""Least number of modes that a scene may give."""
 SHARP = 0.05
 """Slope of the gap over that without vibration below which the contact is no longer circular."""
 
@@ -178,7 +177,7 @@ def _stiff_unloading(problem: DynamicProblem, time: float) -> StiffUnloadingErro
     modes = problem.contact.modes
     fewer = modes.first.size // 2
     remedy = "reduce impact.speed, or set effects.plasticity = false for an elastic contact"
-    if fewer >= FEWEST:
+    if fewer >= FEWEST_MODES:
         remedy = f"set inertia.modes to at most {fewer}"
     if modes.first.size < modes.omega.size:
         remedy += ', or inertia.branches to "A0"'

@@ -13,6 +13,8 @@ Output = Literal[
 OUTPUTS: tuple[Output, ...] = get_args(Output)
 TIGHTEST = 1e-13
 """Smallest relative tolerance that double precision allows."""
+FEWEST_MODES = 2
+"""Smallest number of dynamic modes that a scene may give."""
 
 
 class Accuracy(Table):
@@ -84,7 +86,7 @@ class Inertia(Table):
     40
     """
 
-    modes: Literal["auto"] | Annotated[int, Field(ge=2, le=6000)] = Field(
+    modes: Literal["auto"] | Annotated[int, Field(ge=FEWEST_MODES, le=6000)] = Field(
         default="auto",
         description="number of dynamic bending modes; higher modes respond quasi-statically",
         examples=[40],

@@ -65,6 +65,7 @@ class ContactRun(NamedTuple):
     after: ImpactState
     tried: int
     yielding: Yielding | None = None
+    flight: tuple[TimeElement, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -145,6 +146,22 @@ def impact_history(
             # A sphere that falls back only by its weight has left the plate: its return is another
             # impact.
             weightless = replace(problem, weight=0.0) if problem.weight else problem
+            if problem.middle_plane:
+                from derivation.scene.dynamic.stretched_flight import flight
+
+                flown = flight(weightless, n, after, last, most - tried)
+                if flown.met and problem.weight:
+                    flown = flight(problem, n, after, last, most - tried)
+                runs[-1] = runs[-1]._replace(flight=flown.pieces)
+                used += len(flown.pieces) * weight
+                tried += len(flown.pieces)
+                if not flown.met:
+                    return ImpactHistory(problem, tuple(runs), LEFT, "", used, tolerance)
+                wait = flown.pieces[-1].end
+                _check_count(problem, runs, touching.end + wait)
+                t, state = touching.end + wait, flown.end
+                radius = 0.0
+                continue
             wait, radius, flight_work = next_contact(weightless, after, last, work - used)
             used += flight_work
             if problem.weight and wait < math.inf:
@@ -269,7 +286,7 @@ def contact(
             now, count = problem.T * (origin + x**ONSET), problem.omega.size
             announce(f"{now:.3g} s after first contact, {count} modes")
         remaining = left_after(elements[-1]) if elements else math.inf
-        length = min(length, longest(problem, n, x, remaining, tolerance))
+        length = min(length, longest(problem, n, x, remaining, tolerance, state))
         if length < SHORTEST * max(x, 1.0):
             break
         made = solved(problem, n, x, length, state, radius, elements[-1:], enough)

@@ -64,7 +64,7 @@ def next_contact(
         opening = free.cos @ state.q_dot - free.sin @ (state.q * omega) - state.velocity
         opening -= problem.weight * t
         if problem.retardation_time:
-            into -= _remaining_depth(problem, np.add(begin, t), radius, np.add(state.q, bent))
+            into -= remaining_depth(problem, np.add(begin, t), radius, np.add(state.q, bent))
         turned = (opening[:-1] < 0.0) & (opening[1:] > 0.0)  # the gap is smallest in between
         for k in np.flatnonzero((into[1:] >= 0.0) | turned):
             low, high = begin + float(t[k]), begin + float(t[k + 1])
@@ -132,11 +132,11 @@ def _overlap(problem: DynamicProblem, after: ImpactState, t: float, radius: floa
     if not problem.retardation_time:
         return state.approach
     return state.approach - float(
-        _remaining_depth(problem, np.array([t]), radius, state.q[None])[0]
+        remaining_depth(problem, np.array([t]), radius, state.q[None])[0]
     )
 
 
-def _remaining_depth(problem: DynamicProblem, t: Array, radius: float, q: Array) -> Array:
+def remaining_depth(problem: DynamicProblem, t: Array, radius: float, q: Array) -> Array:
     """Return the remaining depth of the face after a viscoelastic contact."""
     at = problem.at(problem.a * _recovering_radius(problem, t, radius))
     by_shape = problem.contact.modes.by_shape

@@ -77,6 +77,15 @@ class Modes:
     held: "Waves | None" = None
     b: float = 1.0
 
+    def part(self, modes: slice) -> "Modes":
+        """Return some of the modes, all of those of each of their shapes."""
+        shapes = np.unique(self.shape[modes])
+        first = self.first[shapes] - (self.first[shapes[0]] if shapes.size else 0)
+        return Modes(
+            self.phi[shapes], self.omega[modes], self.inverse_modal_mass[modes], first,
+            self.bends[modes], None, self.b,
+        )  # fmt: skip
+
     @property
     def compliances(self) -> Array:
         """Static deflection of each mode at the axis by a unit force [m/N]."""

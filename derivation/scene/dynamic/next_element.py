@@ -15,6 +15,7 @@ EARLY = 0.5
 """Coefficient of the additional growth of elements near the onset."""
 PHASE = 0.75
 """Largest phase of a mode over an element, divided by the number of nodes [rad]."""
+TURN = 2.0
 SAFE = 0.1
 """Part of the tolerance for which elements that approach the end of a contact are chosen."""
 WITHIN = 0.5
@@ -117,12 +118,24 @@ def left_after(last: TimeElement) -> float:
     return left if left * narrowing > WITHIN * last.radius else last.radius / narrowing
 
 
-def longest(problem: DynamicProblem, n: int, x: float, left: float, tolerance: float) -> float:
+def longest(problem: DynamicProblem, n: int, x: float, left: float, tolerance: float, state) -> float:
     """Return the largest length of an element by its fastest mode and the remaining time."""
     most = problem.fastest
     ahead = PHASE * n / most if most else math.inf
-    ahead = min(ahead, _towards(n, tolerance) * left)
+    if left < math.inf:
+        ahead = min(ahead, _towards(n, tolerance) * left)
+    ahead = min(ahead, stretched_step(problem, state))
     return float((x**ONSET + ahead) ** (1.0 / ONSET) - x)
+
+
+def stretched_step(problem: DynamicProblem, state: ImpactState) -> float:
+    """Return the largest duration of an element in which the plate stretches."""
+    plane, modes = problem.middle_plane, problem.contact.modes
+    if plane is None:
+        return math.inf
+    stiffness = plane.stiffness(modes.by_shape(state.q))
+    square = float(np.max(problem.inverse_modal_mass[modes.first[: stiffness.size]] * stiffness))
+    return TURN / math.sqrt(square) if square > 0.0 else math.inf
 
 
 def _towards(n: int, tolerance: float) -> float:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from derivation.scene.contact_law.yielding import Yielding
 from derivation.scene.dynamic.contact_tables import ContactSamples, ContactTables
+from derivation.scene.dynamic.middle_plane import MiddlePlane
 from derivation.scene.dynamic.oscillators import FreeMotion
 from generated.arrays import Double as Array
 
@@ -69,6 +70,8 @@ class DynamicProblem:
     bending_fraction
         Fraction of the static compliance of each shape that is bending, and thus elastic in a
         viscoelastic contact [1].
+    middle_plane
+        The middle plane, if it stretches.
     """
 
     contact: ContactTables
@@ -84,6 +87,7 @@ class DynamicProblem:
     limit: float = math.inf
     range_end: str = ""
     bending_fraction: Array | float = 1.0
+    middle_plane: MiddlePlane | None = None
 
     @property
     def force(self) -> float:

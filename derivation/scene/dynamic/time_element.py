@@ -40,6 +40,7 @@ A, V, Z, P, W, E, LOST, LEAK, DAMPED, C = range(10)
 the plate; per x the energies lost in the contact, by the pointwise coupling and by damping of the
 plate; and the contact radius, which differs from that of the law by the curvature of the plate."""
 
+CLOSE = 1e-13
 SEVERAL = 4
 """Number of modes per shape from which a matrix for each shape saves time."""
 
@@ -94,6 +95,7 @@ class TimeElement(NamedTuple):
     radius: float
     modal_forces: Array
     yielding: Yielding | None
+    pull: Array | float = 0.0
 
 
 def nodes_of(problem: DynamicProblem, n: int, x: float, length: float, start: ImpactState) -> Nodes:
@@ -231,6 +233,13 @@ def deflections_at(problem: DynamicProblem, nodes: Nodes, radius: float, y: Arra
     return nodes.even + nodes.moved + _modal_deflections(problem, nodes, load.forces[:, 1:])
 
 
+def free_pull(problem: DynamicProblem, nodes: Nodes) -> Array | float:
+    """Return the forces of stretching by the free motion, from which an iteration begins."""
+    if problem.middle_plane is None:
+        return 0.0
+    return problem.middle_plane.forces(nodes.even + nodes.moved)
+
+
 def _values(
     problem: DynamicProblem, nodes: Nodes, start: ImpactState, load: _Load, bent: Array
 ) -> Values:
@@ -269,18 +278,22 @@ def element(
     largest of them.
     """
     nodes, size, found = nodes_of(problem, n, x, length, start), math.inf, False
-    order = 1 if problem.retardation_time else 2
+    order = 1 if problem.retardation_time or problem.middle_plane else 2
+    pull = free_pull(problem, nodes)
     for _ in range(NEWTON):
         if found:
-            return _polynomials(problem, nodes, start, radius, y, x, length)
+            return _polynomials(problem, nodes, start, radius, y, x, length, pull)
         a = radius + nodes.by_x @ y
         if not a.min() > 0.0:
             return None
         at = problem.at(problem.a * a)
         load = _load_at(problem, nodes, a, y, at)
-        values = _values(
-            problem, nodes, start, load, _modal_deflections(problem, nodes, load.forces[:, 1:])
-        )
+        bent = _modal_deflections(problem, nodes, load.forces[:, 1:] + pull)
+        values = _values(problem, nodes, start, load, bent)
+        if problem.middle_plane:
+            if not np.max(np.abs(values.q)) < 1e3:
+                return None
+            pull = problem.middle_plane.forces(values.q)
         depth = at.depth / problem.depth + np.vecdot(at.weights_less_one, values.q)
         system = _system(problem, nodes, at, load, values.q) / nodes.t[:, None]
         step = newton_step(system, (values.approach - depth) / nodes.t, nodes.by_x, a)
@@ -370,14 +383,17 @@ def _polynomials(
     y: Array,
     x: float,
     length: float,
+    pull: Array | float,
 ) -> TimeElement | None:
     """Return the element as polynomials, with its end; None if a radius is not positive."""
     load, pointwise = _forces_at(problem, nodes, radius, y), problem.contact.pointwise
     if not load.a.min() > 0.0:
         return None
     by_shape = load.by_y is not None or pointwise
-    driven = _driven_modes(problem, nodes, start, load.forces[:, 1:], by_shape)
+    driven = _driven_modes(problem, nodes, start, load.forces[:, 1:] + pull, by_shape)
     at = _values(problem, nodes, start, load, driven.bent)
+    if problem.middle_plane:
+        driven.energy[:] += problem.middle_plane.energy(at.q)
     force = at.force
     lost, leak = np.zeros_like(force), np.zeros_like(force)
     if at.load_y is not None:
@@ -396,4 +412,36 @@ def _polynomials(
         float(at.z[-1]), float(at.v[-1]), driven.q, driven.q_dot, float(at.approach[-1])
     )
     # A copy, because a view of the last row would keep all rows in memory.
-    return TimeElement(made, end, float(at.a[-1]), at.modal_forces[-1].copy(), problem.yielding)
+    last = pull if isinstance(pull, float) else pull[-1].copy()
+    return TimeElement(made, end, float(at.a[-1]), at.modal_forces[-1].copy(), problem.yielding, last)
+
+
+def free_element(
+    problem: DynamicProblem, n: int, x: float, length: float, start: ImpactState
+) -> tuple[TimeElement, Nodes, Values] | None:
+    """Return an element without contact, in which the plate stretches, and its values."""
+    assert problem.middle_plane is not None
+    nodes, plane = nodes_of(problem, n, x, length, start), problem.middle_plane
+    pull = free_pull(problem, nodes)
+    none, shapes = np.zeros(n), problem.contact.modes.phi.size
+    load = _Load(none, none, np.zeros((n, 1 + shapes)), np.empty((0, 0)), None)
+    for _ in range(NEWTON):
+        values = _values(problem, nodes, start, load, _modal_deflections(problem, nodes, pull))
+        if not np.max(np.abs(values.q)) < 1e3:
+            return None
+        before, pull = pull, plane.forces(values.q)
+        if np.max(np.abs(pull - before)) <= CLOSE * np.max(np.abs(pull)):
+            break
+    else:
+        return None
+    driven = _driven_modes(problem, nodes, start, pull, False)
+    at = _values(problem, nodes, start, load, driven.bent)
+    energy = driven.energy + plane.energy(at.q)
+    rows = none, at.v, at.z, none, np.sum(at.q, axis=1), energy, none, none
+    rule = radau(n)
+    values = np.array([*rows, driven.damped * nodes.rate, none])
+    made = Element(x, length, values @ rule.analysis.T, none)
+    end = ImpactState(
+        float(at.z[-1]), float(at.v[-1]), driven.q, driven.q_dot, float(at.approach[-1])
+    )
+    return TimeElement(made, end, 0.0, np.zeros(shapes), problem.yielding), nodes, at

@@ -1,0 +1,232 @@
+"""Flight between contacts while the plate stretches: time elements until the next contact.
+
+Only the first shapes stretch the middle plane. Modes of the others vibrate freely, as in a flight
+without stretching, and do not limit the length of the elements.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial.legendre import legval
+
+from derivation.scene.dynamic.flight import AT_ONCE, STEP, remaining_depth
+from derivation.scene.dynamic.next_element import PHASE, stretched_step
+from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
+from derivation.scene.dynamic.time_element import TimeElement, free_element
+from derivation.scene.errors import IncompleteError
+from derivation.scene.numerics.collocation import ONSET, radau
+from derivation.scene.numerics.crossing import rise
+from generated.arrays import Double as Array
+
+BEGIN = 1.0
+"""Start of a flight in x; the elements are then nearly uniform in time."""
+SHORTEST = 1e-6
+"""Length of an element over the first one tried at which the flight has no solution."""
+SOFTER = 0.25
+"""Stretching energy over that of the static deflection by a point force, at equal deflection on the
+axis; the least one, of a membrane without bending, is about half."""
+
+
+class FlightPiece(NamedTuple):
+    """An element of a flight.
+
+    Attributes
+    ----------
+    made
+        The element of the modes that stretch the plate.
+    since
+        Its start after the separation, in units of the problem.
+    start
+        The state of all modes there.
+    """
+
+    made: TimeElement
+    since: float
+    start: ImpactState
+
+    @property
+    def end(self) -> float:
+        """End of the element after the separation."""
+        element = self.made.element
+        return (element.x + element.length) ** ONSET - BEGIN
+
+
+class Flight(NamedTuple):
+    """A flight: its elements, the state at its end, and whether it ends with a contact."""
+
+    pieces: tuple[FlightPiece, ...]
+    end: ImpactState
+    met: bool
+
+
+@dataclass(frozen=True)
+class FlightProblem:
+    """The problem of a flight: the modes that stretch the plate, and the others.
+
+    Attributes
+    ----------
+    whole
+        The problem of the impact.
+    """
+
+    whole: DynamicProblem
+
+    @cached_property
+    def modes(self) -> int:
+        """Number of modes that stretch the plate."""
+        plane, first = self.whole.middle_plane, self.whole.contact.modes.first
+        assert plane is not None
+        return int(np.append(first, self.whole.omega.size)[plane.slopes.shape[0]])
+
+    @cached_property
+    def stretched(self) -> DynamicProblem:
+        """The problem of the modes that stretch the plate."""
+        return self._part(slice(self.modes))
+
+    @cached_property
+    def others(self) -> DynamicProblem:
+        """The problem of the other modes, without stretching."""
+        return self._part(slice(self.modes, None))
+
+    def _part(self, part: slice) -> DynamicProblem:
+        whole, modes = self.whole, self.whole.contact.modes.part(part)
+        plane = None if part.start else whole.middle_plane
+        contact = replace(whole.contact, modes=modes)
+        return replace(whole, contact=contact, middle_plane=plane, retardation_time=0.0)
+
+    def split(self, state: ImpactState) -> tuple[ImpactState, ImpactState]:
+        """Return the states of both parts."""
+        k = self.modes
+        return (
+            state._replace(q=state.q[:k], q_dot=state.q_dot[:k]),
+            state._replace(q=state.q[k:], q_dot=state.q_dot[k:]),
+        )
+
+    def joined(self, stretched: ImpactState, others: ImpactState, moved: float) -> ImpactState:
+        """Return the state of all modes; the others have moved the face by a distance."""
+        return stretched._replace(
+            q=np.concatenate((stretched.q, others.q)),
+            q_dot=np.concatenate((stretched.q_dot, others.q_dot)),
+            approach=stretched.approach - moved,
+        )
+
+
+def flight(
+    problem: DynamicProblem, n: int, after: ImpactState, radius: float, most: int
+) -> Flight:
+    """Return the flight from a separation to the next contact, or until none is possible.
+
+    Parameters
+    ----------
+    n
+        Number of nodes of an element.
+    after, radius
+        State and radius at separation.
+    most
+        Largest number of elements.
+
+    Raises
+    ------
+    IncompleteError
+        If the flight needs more elements.
+    """
+    parts, x, state, pieces = FlightProblem(problem), BEGIN, after, list[FlightPiece]()
+    period = 2.0 * math.pi / float(np.min(problem.omega))
+    while len(pieces) < most:
+        t = x**ONSET - BEGIN
+        if state.velocity <= 0.0 and t > period and -state.displacement > reach(problem, state):
+            return Flight(tuple(pieces), state, False)
+        piece, met = _piece(parts, n, x, state, radius)
+        x = piece.made.element.x + piece.made.element.length
+        state = state_after(parts, piece)
+        pieces.append(piece)
+        if met:
+            return Flight(tuple(pieces), state._replace(approach=0.0), True)
+    raise IncompleteError(
+        f"sphere and plate moved side by side without contact for {problem.T * x**ONSET:.6g} s, "
+        "the limit",
+        "use a thicker plate or a lighter sphere, or set effects.inertia = false for a "
+        "quasi-static plate",
+    )
+
+
+def _piece(
+    parts: FlightProblem, n: int, x: float, state: ImpactState, radius: float
+) -> tuple[FlightPiece, bool]:
+    """Return the next element, and whether it ends with a contact."""
+    t, own, others = x**ONSET - BEGIN, *parts.split(state)
+    ahead = min(PHASE * n / parts.stretched.fastest, stretched_step(parts.stretched, own))
+    length = first = (x**ONSET + ahead) ** (1.0 / ONSET) - x
+
+    def overlaps(length: float) -> tuple[TimeElement, Array] | None:
+        """Return an element, and the overlap with a face that only its modes move."""
+        found = free_element(parts.stretched, n, x, length, own)
+        if found is None:
+            return None
+        made, nodes, values = found
+        overlap = values.approach
+        if parts.whole.retardation_time:
+            still = np.zeros((n, parts.others.contact.modes.phi.size))
+            q = np.concatenate((values.q, still), axis=1)
+            overlap = overlap - remaining_depth(parts.whole, t + nodes.since, radius, q)
+        return made, np.asarray(radau(n).analysis @ overlap, dtype=np.float64)
+
+    while (found := overlaps(length)) is None:
+        length *= 0.5
+        if length < SHORTEST * first:
+            raise ArithmeticError
+    made, overlap = found
+    by_others = float(np.sum(np.hypot(others.q, others.q_dot / parts.others.omega)))
+
+    def overlap_at(s: Array) -> Array:
+        since = (x + length * (1.0 + s) / 2.0) ** ONSET - x**ONSET
+        return np.asarray(legval(s, overlap) - _moved(parts.others, others, since))
+
+    fine = max(4 * n, math.ceil(ahead * parts.whole.fastest / STEP))
+    s = np.linspace(-1.0, 1.0, fine + 1)[1:]
+    near = np.flatnonzero(legval(s, overlap) + 2.0 * by_others >= 0.0)
+    near = near[overlap_at(s[near]) >= 0.0] if near.size else near
+    if not near.size:
+        return FlightPiece(made, t, state), False
+    high = float(s[near[0]])
+    low = float(s[near[0] - 1]) if near[0] else -1.0
+    met = rise(lambda s: float(overlap_at(np.array([s]))[0]), low, high)
+    shorter = overlaps(length * (1.0 + met) / 2.0)
+    if shorter is None:
+        raise ArithmeticError
+    return FlightPiece(shorter[0], t, state), True
+
+
+def _moved(problem: DynamicProblem, state: ImpactState, since: Array) -> Array:
+    """Return by how much modes that vibrate freely have moved the face, at times."""
+    if not problem.omega.size:
+        return np.zeros_like(since)
+    block = max(1, AT_ONCE // problem.omega.size)
+    found = [
+        problem.flights(state, since[k : k + block], 0.0)[2] for k in range(0, since.size, block)
+    ]
+    return np.asarray(np.concatenate(found) - np.sum(state.q))
+
+
+def state_after(parts: FlightProblem, piece: FlightPiece) -> ImpactState:
+    """Return the state of all modes at the end of an element."""
+    others = parts.split(piece.start)[1]
+    flown = parts.others.flown(others, piece.end - piece.since)
+    return parts.joined(piece.made.end, flown, float(np.sum(flown.q) - np.sum(others.q)))
+
+
+def reach(problem: DynamicProblem, state: ImpactState) -> float:
+    """Return a bound on the deflection of the plate in free vibration, by its energy."""
+    plane, modes = problem.middle_plane, problem.contact.modes
+    assert plane is not None
+    energy = float(np.sum(problem.energies(state)))
+    energy += float(plane.energy(modes.by_shape(state.q)))
+    static = modes.by_shape(problem.inverse_modal_mass / problem.omega**2)
+    soft = float(np.sum(static))
+    quartic = SOFTER * float(plane.energy(static / soft))
+    half = 0.25 / soft  # energy = square/(2 soft) + quartic square^2
+    square = energy / (half + math.sqrt(half * half + quartic * energy))
+    return math.sqrt(square)

@@ -78,6 +78,7 @@ from generated.sphere_kernels import (
     sphere_term,
 )
 from generated.stretching_kernels import (
+    edge_tension_clamped,
     stiffening_clamped,
     stiffening_paper,
     stiffening_supported,
@@ -164,6 +165,7 @@ __all__ = [
     "contact_plates",
     "contact_radius",
     "echo_time",
+    "edge_tension_clamped",
     "face_motion",
     "finite_radius",
     "force_of_radius",

@@ -46,12 +46,16 @@ class InertiaSettings:
         Whether the indentation is defined at the axis, which causes a spurious energy loss.
     infinite_plate
         Whether the plate is so large that no wave returns from its edge.
+    stretching
+        Whether the middle plane stretches: "auto" (if the model error without it is large), True or
+        False.
     """
 
     modes: int = 0
     branches: str = "auto"
     pointwise: bool = False
     infinite_plate: bool = False
+    stretching: str | bool = "auto"
 
 
 @dataclass(frozen=True)
@@ -326,13 +330,13 @@ def _infinite_plate_radius(model: Model) -> float:
 
 
 def _inertia(scene: Scene) -> InertiaSettings:
-    wanted = scene.inertia
+    wanted, stretching = scene.inertia, scene.effects.stretching
     if wanted is None:
-        return InertiaSettings()
+        return InertiaSettings(stretching=stretching)
     modes = 0 if wanted.modes == "auto" else wanted.modes
     pointwise = wanted.coupling == "pointwise"
     infinite = wanted.extent == "infinite" and not scene.effects.quasi_static
-    return InertiaSettings(modes, wanted.branches, pointwise, infinite)
+    return InertiaSettings(modes, wanted.branches, pointwise, infinite, stretching)
 
 
 def _mass(sphere: Sphere, density: float) -> float:

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
 from pydantic import Field, ValidationError
 
@@ -16,6 +16,7 @@ from derivation.scene.input.bodies import Positive
 from derivation.scene.input.bodies import Sphere as Sphere
 from derivation.scene.input.body_materials import material_problems
 from derivation.scene.input.example_scenes import remedy
+from derivation.scene.input.included import Effects as Effects
 from derivation.scene.input.messages import LARGEST_NUMBER, OWN_MATERIALS, shown
 from derivation.scene.input.settings import OUTPUTS as OUTPUTS
 from derivation.scene.input.settings import TIGHTEST as TIGHTEST
@@ -35,7 +36,6 @@ from derivation.scene.input.table import (
 from derivation.scene.input.toml_file import name_of, path_of, read_toml
 from derivation.scene.output.html import html_table
 
-Wanted = Literal["auto"] | bool
 VARY = "vary"
 """Table of a scene file with the distributions of a sample, for `platecontact sweep`."""
 
@@ -63,62 +63,6 @@ class Impact(Table):
         description="gravitational acceleration during contact [m/s^2]",
         examples=[9.81],
     )
-
-
-def _switch(description: str, example: bool = True) -> Any:
-    """Return the field of an effect, "auto" by default."""
-    return Field(default="auto", description=description, examples=[example])
-
-
-class Effects(Table):
-    """Selection of the effects; with "auto", the tolerance decides.
-
-    Parameters
-    ----------
-    sphere_elasticity, spherical_profile, non_hertzian_pressure, plasticity, viscosity, gravity
-        Effects of sphere and contact: "auto", the default, to include the effect if the tolerance
-        requires it; True to include it, which requires its key; False to disable it.
-    bending, finite_thickness, finite_radius, edge, inertia, damping
-        Effects of the plate, with the same values.
-    compare_paper_motion
-        Whether to print the paper's perturbation motion, too; by default False.
-
-    Examples
-    --------
-    >>> import platecontact as pc
-    >>> scene = pc.Scene(
-    ...     sphere=pc.Sphere(radius=0.01, material="steel"),
-    ...     plate=pc.Plate(radius=0.3, thickness=0.05, material="glass"),
-    ...     impact=pc.Impact(speed=1.0),
-    ...     effects=pc.Effects(inertia=False, spherical_profile=True),
-    ... )
-    >>> included = pc.explain(scene).effects.included
-    >>> "inertia" in included, "spherical_profile" in included
-    (False, True)
-    """
-
-    sphere_elasticity: Wanted = _switch("elastic deformation of the sphere", False)
-    spherical_profile: Wanted = _switch("spherical profile instead of a paraboloid", False)
-    bending: Wanted = _switch("bending of the plate")
-    finite_thickness: Wanted = _switch("shear and compression of the plate")
-    finite_radius: Wanted = _switch("finite radius of the plate")
-    edge: Wanted = _switch("simply supported or clamped edge")
-    non_hertzian_pressure: Wanted = _switch("contact pressure from the integral equation", False)
-    plasticity: Wanted = _switch("plastic deformation in the contact")
-    viscosity: Wanted = _switch("viscoelastic contact")
-    gravity: Wanted = _switch("weight of the sphere during contact", False)
-    inertia: Wanted = _switch("inertia of the plate", False)
-    damping: Wanted = _switch("damping of the plate vibration")
-    compare_paper_motion: bool = Field(
-        default=False,
-        description="also print the paper's perturbation motion; the results do not change",
-        examples=[True],
-    )
-
-    @property
-    def quasi_static(self) -> bool:
-        """Whether the inertia of the plate is disabled."""
-        return self.inertia is False
 
 
 class Scene(Table):

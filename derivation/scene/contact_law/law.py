@@ -137,6 +137,11 @@ class ContactLaw:
         return any(effect.dynamic for effect in self.chosen)
 
     @cached_property
+    def stretches(self) -> bool:
+        """Whether the middle plane of the plate stretches."""
+        return any(effect.stretches for effect in self.chosen)
+
+    @cached_property
     def damping_ratio(self) -> float:
         """Damping ratio of the plate modes [1]: half the loss factor, as at resonance."""
         damped = any(effect.damps for effect in self.chosen)

@@ -200,7 +200,7 @@ def warnings_at(
     if deflection is None:
         deflection = indentation - float(local_indentation(law, a))
     largest = float(errors.largest_deflection(deflection, indentation))
-    if largest / thickness > STRETCH_LIMIT:
+    if largest / thickness > STRETCH_LIMIT and not law.stretches:
         ratios = _compared(deflection / thickness, largest / thickness, STRETCH_LIMIT)
         notes.append(
             f"plate deflection over thickness w/H = {ratios}: membrane stretching makes the plate "

@@ -10,7 +10,7 @@ import numpy as np
 from derivation.engine.activity import announce
 from derivation.scene.contact_law.yielding import Yielding
 from derivation.scene.dynamic.contact_errors import STUCK, check_width, no_solution, too_many_steps
-from derivation.scene.dynamic.flight import next_contact
+from derivation.scene.dynamic.flight import next_contact, recovering_radius
 from derivation.scene.dynamic.next_element import (
     PHASE,
     begun,
@@ -22,6 +22,7 @@ from derivation.scene.dynamic.next_element import (
 )
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
 from derivation.scene.dynamic.separation import last_element, released
+from derivation.scene.dynamic.stretched_flight import FlightPiece, flight
 from derivation.scene.dynamic.time_element import LOST, C, P, TimeElement
 from derivation.scene.dynamic.yield_events import UncutError, next_branch
 from derivation.scene.errors import IncompleteError
@@ -44,6 +45,8 @@ PROGRESS = 50
 STAYS = 20.0
 """Contact time over half a period of the sphere on the plate, above which its weight is assumed to
 hold it there."""
+STRETCHED = 1.0
+"""Work of stretching at a node, over the number of shapes and points."""
 LEFT, ENOUGH = "no further contact is possible", "no further contact is needed"
 """End reasons of a complete simulation, and of one that its caller ends."""
 
@@ -54,7 +57,8 @@ class ContactRun(NamedTuple):
     `radius` is the contact radius at the start; it is above 0 if the face has not recovered from
     the last contact. The modes of the state after the contact vibrate freely; the deflection that
     recovers with a viscoelastic face is not part of them. `tried` is the number of computed
-    elements, including rejected ones. `yielding` is the branch of a plastic contact at its end.
+    elements, including rejected ones. `yielding` is the branch of a plastic contact at its end, and
+    `flight` contains the elements of the flight after it if the plate stretches.
     """
 
     start: float
@@ -65,7 +69,7 @@ class ContactRun(NamedTuple):
     after: ImpactState
     tried: int
     yielding: Yielding | None = None
-    flight: tuple[TimeElement, ...] = ()
+    flight: tuple[FlightPiece, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -143,42 +147,63 @@ def impact_history(
             after, last = touching.after, touching.pieces[-1].radius
             if touching.yielding is not problem.yielding:
                 problem = replace(problem, yielding=touching.yielding)
-            # A sphere that falls back only by its weight has left the plate: its return is another
-            # impact.
-            weightless = replace(problem, weight=0.0) if problem.weight else problem
-            if problem.middle_plane:
-                from derivation.scene.dynamic.stretched_flight import flight
-
-                flown = flight(weightless, n, after, last, most - tried)
-                if flown.met and problem.weight:
-                    flown = flight(problem, n, after, last, most - tried)
-                runs[-1] = runs[-1]._replace(flight=flown.pieces)
-                used += len(flown.pieces) * weight
-                tried += len(flown.pieces)
-                if not flown.met:
-                    return ImpactHistory(problem, tuple(runs), LEFT, "", used, tolerance)
-                wait = flown.pieces[-1].end
-                _check_count(problem, runs, touching.end + wait)
-                t, state = touching.end + wait, flown.end
-                radius = 0.0
-                continue
-            wait, radius, flight_work = next_contact(weightless, after, last, work - used)
-            used += flight_work
-            if problem.weight and wait < math.inf:
-                wait, radius, flight_work = next_contact(problem, after, last, work - used)
-                used += flight_work
-            if wait == math.inf or touching.end + wait > problem.first_echo:
+            flown = _flight(problem, n, after, last, work - used)
+            runs[-1], used = touching._replace(flight=flown.pieces), used + flown.work
+            if flown.wait == math.inf or touching.end + flown.wait > problem.first_echo:
                 return ImpactHistory(problem, tuple(runs), LEFT, "", used, tolerance)
-            _check_count(problem, runs, touching.end + wait)
+            _check_count(problem, runs, touching.end + flown.wait)
         except IncompleteError as end:
             if not runs:
                 raise
             return ImpactHistory(problem, tuple(runs), end.why, str(end.remedy), work, tolerance)
-        t, state = touching.end + wait, problem.flown(after, wait)
+        t, radius = touching.end + flown.wait, flown.radius
+        state = flown.end or problem.flown(after, flown.wait)
         if radius:
-            state = problem.freed(state, last, wait, -1.0)
+            state = problem.freed(state, last, flown.wait, -1.0)
         if not radius:
             state = state._replace(approach=0.0)
+
+
+class FlightRun(NamedTuple):
+    """A flight: its duration, contact radius at its end, and work.
+
+    The duration is infinite if no contact follows. If the plate stretches, the flight also has
+    elements, and the state at its end.
+    """
+
+    wait: float
+    radius: float
+    work: float
+    pieces: tuple[FlightPiece, ...] = ()
+    end: ImpactState | None = None
+
+
+def _flight(
+    problem: DynamicProblem, n: int, after: ImpactState, radius: float, work: float
+) -> FlightRun:
+    """Return the flight after a separation.
+
+    A sphere that falls back only by its weight has left the plate: its return is another impact.
+    """
+    weightless = replace(problem, weight=0.0) if problem.weight else problem
+    one = _flight_with(weightless, n, after, radius, work)
+    if not problem.weight or one.wait == math.inf:
+        return one
+    other = _flight_with(problem, n, after, radius, work - one.work)
+    return other._replace(work=one.work + other.work)
+
+
+def _flight_with(
+    problem: DynamicProblem, n: int, after: ImpactState, radius: float, work: float
+) -> FlightRun:
+    """Return the flight after a separation, with the weight of the problem."""
+    if problem.middle_plane is None:
+        return FlightRun(*next_contact(problem, after, radius, work))
+    flown = flight(problem, n, after, radius, steps_of(problem, n, work))
+    wait = flown.pieces[-1].end if flown.met else math.inf
+    used = len(flown.pieces) * weight_of(problem, n)
+    at_end = float(recovering_radius(problem, np.array([wait]), radius)[0]) if flown.met else 0.0
+    return FlightRun(wait, at_end, used, flown.pieces, flown.end)
 
 
 def steps_of(problem: DynamicProblem, n: int, work: float = WORK) -> int:
@@ -190,6 +215,8 @@ def weight_of(problem: DynamicProblem, n: int) -> float:
     """Return the work of an element: its run time in units of about 0.4 microseconds."""
     modes, degree = problem.contact.modes, problem.contact.degree
     each = 0.3 * modes.omega.size + (0.1 + 0.003 * degree) * modes.phi.size
+    if problem.middle_plane is not None:
+        each += STRETCHED * sum(problem.middle_plane.slopes.shape)
     return 2000.0 + n * each
 
 
@@ -286,7 +313,7 @@ def contact(
             now, count = problem.T * (origin + x**ONSET), problem.omega.size
             announce(f"{now:.3g} s after first contact, {count} modes")
         remaining = left_after(elements[-1]) if elements else math.inf
-        length = min(length, longest(problem, n, x, remaining, tolerance, state))
+        length = min(length, longest(problem, n, x, state, remaining, tolerance))
         if length < SHORTEST * max(x, 1.0):
             break
         made = solved(problem, n, x, length, state, radius, elements[-1:], enough)

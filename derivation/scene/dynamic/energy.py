@@ -7,7 +7,8 @@ import numpy as np
 
 from derivation.scene.dynamic.contact_sequence import ContactRun, ImpactHistory
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
-from derivation.scene.dynamic.time_element import DAMPED, LEAK, LOST, TimeElement
+from derivation.scene.dynamic.stretched_flight import energy_lost
+from derivation.scene.dynamic.time_element import DAMPED, LEAK, LOST, integral
 from derivation.scene.numerics.collocation import ONSET
 from derivation.scene.numerics.quadrature import NODES, gauss
 from derivation.scene.quasi_static.motion import EnergyBalance
@@ -18,8 +19,8 @@ def balance_of(history: ImpactHistory) -> EnergyBalance:
     problem, last = history.problem, history.contacts[-1].after
     energy = problem.m * problem.v0**2
     pieces = [piece for touching in history.contacts for piece in touching.pieces]
-    lost = sum(_sum(piece, LOST) for piece in pieces) if problem.retardation_time else 0.0
-    spurious = sum(_sum(piece, LEAK) for piece in pieces) if problem.contact.pointwise else 0.0
+    lost = sum(integral(piece, LOST) for piece in pieces) if problem.retardation_time else 0.0
+    spurious = sum(integral(piece, LEAK) for piece in pieces) if problem.contact.pointwise else 0.0
     return EnergyBalance(
         initial_kinetic=0.5 * energy,
         gravity_work=energy * problem.weight * last.displacement,
@@ -47,9 +48,12 @@ def _damping_loss(history: ImpactHistory) -> float:
     for touching, until in zip(history.contacts, [*ends, history.contacts[-1].end], strict=True):
         last, first = touching.pieces[-1], touching.pieces[0].element
         followed = (last.element.x + last.element.length) ** ONSET - first.x**ONSET
-        loss += sum(_sum(piece, DAMPED) for piece in touching.pieces)
+        loss += sum(integral(piece, DAMPED) for piece in touching.pieces)
         loss += problem.flight_loss(last.end, touching.end - touching.start - followed)
-        loss += problem.flight_loss(touching.after, until - touching.end)
+        if not touching.flight:
+            loss += problem.flight_loss(touching.after, until - touching.end)
+        elif until > touching.end:  # not after the last separation
+            loss += energy_lost(problem, touching.flight)
     return loss
 
 
@@ -74,14 +78,19 @@ def _lagging(history: ImpactHistory) -> float:
     for one in history.contacts:
         energy += _mode_energy(problem, one.pieces[-1].end) - _mode_energy(problem, one.after)
     for one, two in pairwise(history.contacts):
-        met = problem.flown(one.after, two.start - one.end)
-        energy -= _mode_energy(problem, two.before) - _mode_energy(problem, met)
+        wait = two.start - one.end
+        if two.radius:
+            met = problem.freed(two.before, one.pieces[-1].radius, wait)
+            energy -= _mode_energy(problem, two.before) - _mode_energy(problem, met)
     return energy
 
 
 def _mode_energy(problem: DynamicProblem, state: ImpactState) -> float:
-    """Return the energy of all modes over m v0^2."""
-    return float(np.sum(problem.energies(state)))
+    """Return the energy of all modes over m v0^2, with that of stretching."""
+    energy = float(np.sum(problem.energies(state)))
+    if problem.middle_plane is not None:
+        energy += float(problem.middle_plane.energy(problem.contact.modes.by_shape(state.q)))
+    return energy
 
 
 def _stored(problem: DynamicProblem, radius: float, state: ImpactState) -> float:
@@ -93,10 +102,3 @@ def _stored(problem: DynamicProblem, radius: float, state: ImpactState) -> float
     q = problem.contact.modes.by_shape(state.q)
     more = float((end.force * (1.0 + end.weights_less_one[0]) - end.modal_forces[0]) @ q)
     return rest / (problem.force * problem.depth) + more / problem.force
-
-
-def _sum(piece: TimeElement, row: int) -> float:
-    """Return the integral of a row, a rate by x, over a time element by Gauss' rule."""
-    nodes, weights = gauss(piece.element.slope.size)
-    values = piece.element.at(piece.element.x + piece.element.length * nodes)[row]
-    return piece.element.length * float(weights @ values)

@@ -72,7 +72,7 @@ def next_contact(
                 high = rise(lambda t: problem.flown(after, t).separation_speed, low, high)
             if _overlap(problem, after, high, radius) >= 0.0:
                 met = rise(lambda t: _overlap(problem, after, t, radius), low, high)
-                return met, float(_recovering_radius(problem, np.array([met]), radius)[0]), work
+                return met, float(recovering_radius(problem, np.array([met]), radius)[0]), work
         begin, state = begin + float(t[-1]), problem.flown(state, float(t[-1]))
         if -state.displacement > reach and state.velocity <= 0.0:
             return math.inf, 0.0, work
@@ -131,21 +131,19 @@ def _overlap(problem: DynamicProblem, after: ImpactState, t: float, radius: floa
     state = problem.flown(after, t)
     if not problem.retardation_time:
         return state.approach
-    return state.approach - float(
-        remaining_depth(problem, np.array([t]), radius, state.q[None])[0]
-    )
+    return state.approach - float(remaining_depth(problem, np.array([t]), radius, state.q[None])[0])
 
 
 def remaining_depth(problem: DynamicProblem, t: Array, radius: float, q: Array) -> Array:
     """Return the remaining depth of the face after a viscoelastic contact."""
-    at = problem.at(problem.a * _recovering_radius(problem, t, radius))
+    at = problem.at(problem.a * recovering_radius(problem, t, radius))
     by_shape = problem.contact.modes.by_shape
     lagging = by_shape(problem.lagging(radius, t)[0])
     moved = np.sum(lagging + at.weights_less_one * (by_shape(q) + lagging), axis=1)
     return at.depth / problem.depth + np.asarray(moved, dtype=np.float64)
 
 
-def _recovering_radius(problem: DynamicProblem, t: Array, radius: float) -> Array:
+def recovering_radius(problem: DynamicProblem, t: Array, radius: float) -> Array:
     """Return the radius of the face after a time without force: P_e decays as exp(-t/A_v)."""
     none = np.zeros_like(t)
     if not problem.retardation_time or not np.any(t < RECOVERED * problem.retardation_time):

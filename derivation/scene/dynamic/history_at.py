@@ -5,8 +5,10 @@ from numpy.polynomial.legendre import legvander
 
 from derivation.scene.dynamic.contact_sequence import ContactRun, ImpactHistory
 from derivation.scene.dynamic.flight import AT_ONCE
+from derivation.scene.dynamic.modal_response import nodes_of
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
-from derivation.scene.dynamic.time_element import A, C, E, P, V, W, Z, deflections_at, nodes_of
+from derivation.scene.dynamic.stretched_flight import rows_in_flight, shapes_in_flight
+from derivation.scene.dynamic.time_element import A, C, E, P, V, W, Z, deflections_at
 from derivation.scene.numerics.collocation import ONSET, Element
 from generated.arrays import Double as Array
 
@@ -20,11 +22,7 @@ def deflections(history: ImpactHistory, t: float) -> Array:
     starts = [touching.start for touching in history.contacts]
     touching = history.contacts[max(int(np.searchsorted(starts, t, side="right")) - 1, 0)]
     if t > _computed(touching):
-        since = t - touching.end
-        q = problem.flown(touching.after, since).q
-        if problem.retardation_time:
-            q = q + problem.lagging(touching.pieces[-1].radius, np.array([since]))[0][0]
-        return problem.contact.modes.by_shape(q)
+        return _in_flight(problem, touching, t - touching.end)
     pieces = touching.pieces
     x = (max(t - touching.start, 0.0) + pieces[0].element.x ** ONSET) ** (1.0 / ONSET)
     index = max(int(np.searchsorted([piece.element.x for piece in pieces], x, side="right")) - 1, 0)
@@ -32,6 +30,19 @@ def deflections(history: ImpactHistory, t: float) -> Array:
     if index:
         before, radius = pieces[index - 1].end, pieces[index - 1].radius
     return oscillating(problem, pieces[index].element, before, radius, x)
+
+
+def _in_flight(problem: DynamicProblem, touching: ContactRun, since: float) -> Array:
+    """Return the deflection of each shape at a time after the separation, or just before it."""
+    by_shape = problem.contact.modes.by_shape
+    if touching.flight and since > 0.0:
+        q = shapes_in_flight(problem, touching.flight, since)
+    else:
+        q = by_shape(problem.flown(touching.after, since).q)
+    if problem.retardation_time:
+        lagging = problem.lagging(touching.pieces[-1].radius, np.array([since]))[0][0]
+        q = q + by_shape(lagging)
+    return q
 
 
 def oscillating(
@@ -86,7 +97,7 @@ def rows_of(problem: DynamicProblem, touching: ContactRun, t: Array) -> Array:
     flight = np.flatnonzero(~inside)
     block, radius = max(1, AT_ONCE // max(problem.omega.size, 1)), pieces[-1].radius
     for indices in (flight[k : k + block] for k in range(0, flight.size, block)):
-        flights = problem.flights(touching.after, t[indices] - touching.end, radius)
+        flights = _flights(problem, touching, t[indices] - touching.end, radius)
         found[V, indices], found[Z, indices], found[W, indices], found[E, indices] = flights
     found[[A, P, C]] = np.maximum(found[[A, P, C]], 0.0)
     ending = ~inside & (t < touching.end)
@@ -98,3 +109,22 @@ def rows_of(problem: DynamicProblem, touching: ContactRun, t: Array) -> Array:
     if not touching.radius:  # exact, without the rounding error of the polynomial
         found[np.ix_([A, C], t == touching.start)] = 0.0
     return found
+
+
+def _flights(problem: DynamicProblem, touching: ContactRun, t: Array, radius: float) -> Array:
+    """Return velocity, displacement, plate deflection and energy at times after the separation.
+
+    Times before it belong to the last part of a contact, in which the force is very small.
+    """
+    flights = problem.flights(touching.after, t, radius)
+    if problem.middle_plane is None:
+        return flights
+    at = problem.contact.modes.by_shape(touching.after.q)
+    flights[3] += problem.middle_plane.energy(at)
+    after = t > 0.0
+    if touching.flight and np.any(after):
+        flights[:, after] = rows_in_flight(problem, touching.flight, t[after])
+        if problem.retardation_time:
+            lagging = problem.lagging(radius, t[after])[0]
+            flights[2, after] += np.sum(lagging, axis=1)
+    return flights

@@ -4,22 +4,23 @@ from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
-from numpy.polynomial.legendre import legder, leggauss, legvander
 
+from derivation.scene import kernels
 from derivation.scene.dynamic.modal import Modes
 from derivation.scene.effects.edge import CLAMPED, SUPPORTED
 from derivation.scene.model import Model
+from derivation.scene.numerics.quadrature import derivative, gauss, up_to
 from generated.arrays import Double as Array
 
 MOST = 48
 """Largest number of shapes that stretch the middle plane."""
-POINTS, MORE_POINTS = 3, 16
+POINTS, MORE_POINTS = 2, 16
 """Points on the radius per shape, and additional ones."""
 
 
 @dataclass(frozen=True)
 class MiddlePlane:
-    """The middle plane of a plate, which deflects in the first shapes.
+    """The middle plane of a plate that deflects in its first shapes, in units of the problem.
 
     Attributes
     ----------
@@ -32,51 +33,70 @@ class MiddlePlane:
     on_axis
         The same for the tension on the axis, without a weight, shape (points,).
     unit
-        Force of stretching [N/m^3] over the cube of deflections.
+        Force of stretching over the cube of deflections.
+    tension_unit
+        Tension [N/m] over the square of deflections.
     """
 
     slopes: Array
     tension: Array
     on_axis: Array
     unit: float
+    tension_unit: float
 
     @classmethod
-    def of(cls, model: Model, modes: Modes) -> Self:
-        """Return the middle plane of a plate."""
-        count = min(MOST, modes.phi.size)
+    def of(cls, model: Model, modes: Modes, depth: float, force: float) -> Self:
+        """Return the middle plane of a plate, for the units of depth [m] and force [N].
+
+        The tension is that of derivation step 33, with the integrals of the polynomial through the
+        values at Gauss' points.
+        """
+        count, nu = min(MOST, modes.phi.size), model.poissons_ratio
         n = POINTS * count + MORE_POINTS
-        nodes, weights = leggauss(n)
-        x, w = (1.0 + nodes) / 2.0, weights / 2.0
-        analysis = (legvander(nodes, n - 1) * weights[:, None] * (np.arange(n) + 0.5)).T
-        slope_of = 2.0 * legvander(nodes, n - 2) @ legder(np.eye(n), axis=0) @ analysis
-        slopes = modes.shapes(x * model.b)[:count] @ slope_of.T
-        inner = legvander(np.outer(x, 1.0 + nodes) - 1.0, n - 1) @ analysis
-        up_to = np.einsum("i,j,ijk->ik", x, w, inner)
-        nu = model.poissons_ratio
-        edge = {CLAMPED: (1.0 + nu) / (1.0 - nu), SUPPORTED: -1.0}.get(model.edge, 0.0)
-        inside = up_to * x / (x * x)[:, None]
-        beyond = (w - up_to) / x
-        matrix = inside + beyond + edge * w * x
-        weighted = (w * x)[:, None] * matrix
+        x, w = gauss(n)
+        slopes = modes.shapes(x * model.b)[:count] @ derivative(n).T
+        inside, held = up_to(n), float(kernels.edge_tension_clamped(np.asarray(nu)))
+        kappa = {CLAMPED: held, SUPPORTED: -1.0}.get(model.edge, 0.0)
+        everywhere = kappa * w * x
+        tension = everywhere + inside * x / (x * x)[:, None] + (w - inside) / x
+        weighted = (w * x)[:, None] * tension
         young = 2.0 * model.mu * (1.0 + nu)
-        unit = 2.0 * np.pi * young * (2.0 * model.h) / 4.0 / model.b**2
-        return cls(slopes, 0.5 * (weighted + weighted.T), w / x + edge * w * x, unit)
+        tension_unit = 0.5 * young * model.h * (depth / model.b) ** 2
+        unit = 2.0 * np.pi * tension_unit * depth / force
+        return cls(slopes, 0.5 * (weighted + weighted.T), w / x + everywhere, unit, tension_unit)
+
+    def squares(self, q: Array) -> tuple[Array, Array]:
+        """Return slope and its square at the points for deflections, along the last axis."""
+        slope = q[..., : self.slopes.shape[0]] @ self.slopes
+        return slope, slope * slope
 
     def forces(self, q: Array) -> Array:
-        """Return the force [N] on each shape for deflections [m], along the last axis."""
-        slope = q[..., : self.slopes.shape[0]] @ self.slopes
-        tension = (slope * slope) @ self.tension
+        """Return the force on each shape for deflections, along the last axis."""
+        slope, square = self.squares(q)
         pull = np.zeros_like(q)
-        pull[..., : self.slopes.shape[0]] = -self.unit * (tension * slope) @ self.slopes.T
+        pulled = (square @ self.tension * slope) @ self.slopes.T
+        pull[..., : self.slopes.shape[0]] = -self.unit * pulled
         return pull
 
     def energy(self, q: Array) -> Array:
-        """Return the energy of stretching [J] for deflections [m], along the last axis."""
-        square = (q[..., : self.slopes.shape[0]] @ self.slopes) ** 2
+        """Return the energy of stretching for deflections, along the last axis."""
+        square = self.squares(q)[1]
         return np.asarray(0.25 * self.unit * np.vecdot(square @ self.tension, square))
 
+    def axis_tension(self, q: Array) -> Array:
+        """Return the tension on the axis [N/m] for deflections, along the last axis."""
+        return np.asarray(self.tension_unit * (self.squares(q)[1] @ self.on_axis))
+
     def stiffness(self, q: Array) -> Array:
-        """Return the stiffness of the tension [N/m] for each stretched shape, at one time."""
-        slope = q[: self.slopes.shape[0]] @ self.slopes
-        tension = (slope * slope) @ self.tension
-        return np.asarray(self.unit * ((self.slopes * self.slopes) @ tension))
+        """Return the stiffness of each stretched shape by the tension at one time."""
+        square = self.squares(q)[1]
+        return np.asarray(self.unit * (self.slopes * self.slopes) @ (square @ self.tension))
+
+    def steepness(self, q: Array) -> tuple[float, float]:
+        """Return the integrals of N_r w'^2 r and N_r w'^4 r for deflections at one time.
+
+        They are in the same unit; the slope is that over the plate radius, without a unit of depth.
+        """
+        square = self.squares(q)[1]
+        tension = square @ self.tension
+        return float(tension @ square), float(tension @ (square * square))

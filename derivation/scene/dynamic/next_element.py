@@ -16,6 +16,7 @@ EARLY = 0.5
 PHASE = 0.75
 """Largest phase of a mode over an element, divided by the number of nodes [rad]."""
 TURN = 2.0
+"""Largest phase over an element of a shape whose only stiffness is the tension [rad]."""
 SAFE = 0.1
 """Part of the tolerance for which elements that approach the end of a contact are chosen."""
 WITHIN = 0.5
@@ -118,13 +119,13 @@ def left_after(last: TimeElement) -> float:
     return left if left * narrowing > WITHIN * last.radius else last.radius / narrowing
 
 
-def longest(problem: DynamicProblem, n: int, x: float, left: float, tolerance: float, state) -> float:
+def longest(
+    problem: DynamicProblem, n: int, x: float, state: ImpactState, left: float, tolerance: float
+) -> float:
     """Return the largest length of an element by its fastest mode and the remaining time."""
     most = problem.fastest
     ahead = PHASE * n / most if most else math.inf
-    if left < math.inf:
-        ahead = min(ahead, _towards(n, tolerance) * left)
-    ahead = min(ahead, stretched_step(problem, state))
+    ahead = min(ahead, _towards(n, tolerance) * left, stretched_step(problem, state))
     return float((x**ONSET + ahead) ** (1.0 / ONSET) - x)
 
 

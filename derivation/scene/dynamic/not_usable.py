@@ -28,7 +28,11 @@ PART = 0.25
 
 def not_usable(law: ContactLaw, outputs: Sequence[str]) -> DynamicImpact | None:
     """Return the impact with few modes, without an error bound, if all outputs are useless."""
-    if law.model.inertia.modes or stretching(law.model, largest_deflection(law)) < EXPECTED:
+    if (
+        law.stretches
+        or law.model.inertia.modes
+        or stretching(law.model, largest_deflection(law)) < EXPECTED
+    ):
         return None
     try:
         few = with_few_modes(law, PART)

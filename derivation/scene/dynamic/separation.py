@@ -30,19 +30,23 @@ def last_element(
 def released(problem: DynamicProblem, last: TimeElement, left: float) -> tuple[float, ImpactState]:
     """Return duration and state at the end of the last step, in which P falls as t^(3/2)."""
     state, force = last.end, float(np.sum(last.element.rows[P]))
-    after = state
-    stretched = last.pull[problem.contact.modes.shape] if problem.middle_plane else 0.0
+    after, shape = state, problem.contact.modes.shape
+    pressed = problem.inverse_modal_mass * last.modal_forces[shape]
+    stretched = np.zeros_like(pressed)
+    if last.stretched is not None:
+        pull = np.zeros(problem.contact.modes.phi.size)
+        pull[: last.stretched.pull.shape[1]] = np.sum(last.stretched.pull, axis=0)
+        stretched = problem.inverse_modal_mass * pull[shape]
     for _ in range(3):
         flown = problem.flown(state, left)
         push, shift = 0.4 * left, 2.0 / 7.0 * left * left
-        pulled = problem.inverse_modal_mass * last.modal_forces[problem.contact.modes.shape]
-        by_pull = problem.inverse_modal_mass * stretched
+        moved = pressed * shift + stretched * (0.5 * left * left)
         after = ImpactState(
             flown.displacement - force * shift,
             flown.velocity - force * push,
-            flown.q + pulled * shift + by_pull * left**2 / 2,
-            flown.q_dot + pulled * push + by_pull * left,
-            flown.approach - force * shift - float(np.sum(pulled)) * shift - float(np.sum(by_pull)) * left**2/2,
+            flown.q + moved,
+            flown.q_dot + pressed * push + stretched * left,
+            flown.approach - force * shift - float(np.sum(moved)),
         )
         left += after.approach / after.separation_speed
     return left, after._replace(approach=0.0)

@@ -15,7 +15,16 @@ from numpy.polynomial.legendre import legval
 from derivation.scene.dynamic.flight import AT_ONCE, STEP, remaining_depth
 from derivation.scene.dynamic.next_element import PHASE, stretched_step
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
-from derivation.scene.dynamic.time_element import TimeElement, free_element
+from derivation.scene.dynamic.time_element import (
+    DAMPED,
+    E,
+    TimeElement,
+    V,
+    W,
+    Z,
+    free_element,
+    integral,
+)
 from derivation.scene.errors import IncompleteError
 from derivation.scene.numerics.collocation import ONSET, radau
 from derivation.scene.numerics.crossing import rise
@@ -114,9 +123,7 @@ class FlightProblem:
         )
 
 
-def flight(
-    problem: DynamicProblem, n: int, after: ImpactState, radius: float, most: int
-) -> Flight:
+def flight(problem: DynamicProblem, n: int, after: ImpactState, radius: float, most: int) -> Flight:
     """Return the flight from a separation to the next contact, or until none is possible.
 
     Parameters
@@ -134,10 +141,8 @@ def flight(
         If the flight needs more elements.
     """
     parts, x, state, pieces = FlightProblem(problem), BEGIN, after, list[FlightPiece]()
-    period = 2.0 * math.pi / float(np.min(problem.omega))
     while len(pieces) < most:
-        t = x**ONSET - BEGIN
-        if state.velocity <= 0.0 and t > period and -state.displacement > reach(problem, state):
+        if state.velocity <= 0.0 and -state.displacement > reach(problem, state):
             return Flight(tuple(pieces), state, False)
         piece, met = _piece(parts, n, x, state, radius)
         x = piece.made.element.x + piece.made.element.length
@@ -177,7 +182,7 @@ def _piece(
     while (found := overlaps(length)) is None:
         length *= 0.5
         if length < SHORTEST * first:
-            raise ArithmeticError
+            raise _unsolved(parts.whole, x)
     made, overlap = found
     by_others = float(np.sum(np.hypot(others.q, others.q_dot / parts.others.omega)))
 
@@ -196,8 +201,16 @@ def _piece(
     met = rise(lambda s: float(overlap_at(np.array([s]))[0]), low, high)
     shorter = overlaps(length * (1.0 + met) / 2.0)
     if shorter is None:
-        raise ArithmeticError
+        raise _unsolved(parts.whole, x)
     return FlightPiece(shorter[0], t, state), True
+
+
+def _unsolved(problem: DynamicProblem, x: float) -> IncompleteError:
+    """Return the error of a flight without a solution."""
+    return IncompleteError(
+        f"the vibration of the stretched plate has no solution after {problem.T * x**ONSET:.3g} s",
+        "reduce impact.speed, or set effects.stretching = false",
+    )
 
 
 def _moved(problem: DynamicProblem, state: ImpactState, since: Array) -> Array:
@@ -230,3 +243,48 @@ def reach(problem: DynamicProblem, state: ImpactState) -> float:
     half = 0.25 / soft  # energy = square/(2 soft) + quartic square^2
     square = energy / (half + math.sqrt(half * half + quartic * energy))
     return math.sqrt(square)
+
+
+def rows_in_flight(problem: DynamicProblem, pieces: tuple[FlightPiece, ...], t: Array) -> Array:
+    """Return velocity, displacement, deflection and energy of the plate at times after separation.
+
+    Shape (4, times); times after the last element count as its end.
+    """
+    parts, found = FlightProblem(problem), np.empty((4, t.size))
+    t = np.minimum(t, pieces[-1].end)
+    place = np.searchsorted([piece.since for piece in pieces], t, side="right") - 1
+    place = np.maximum(place, 0)
+    for index in sorted(set(place.tolist())):
+        here, piece = place == index, pieces[index]
+        x = (t[here] + BEGIN) ** (1.0 / ONSET)
+        found[:, here] = piece.made.element.at(x)[[V, Z, W, E]]
+        others = parts.split(piece.start)[1]
+        if others.q.size:
+            found[2:, here] += parts.others.flights(others, t[here] - piece.since, 0.0)[2:]
+    return found
+
+
+def shapes_in_flight(problem: DynamicProblem, pieces: tuple[FlightPiece, ...], t: float) -> Array:
+    """Return the deflection of each shape at a time after separation."""
+    parts = FlightProblem(problem)
+    index = int(np.searchsorted([piece.since for piece in pieces], t, side="right")) - 1
+    piece = pieces[max(index, 0)]
+    own, others = parts.split(piece.start)
+    x, n = piece.made.element.x, piece.made.element.slope.size
+    length = min((t + BEGIN) ** (1.0 / ONSET) - x, piece.made.element.length)
+    if length <= 0.0:
+        return problem.contact.modes.by_shape(piece.start.q)
+    found = free_element(parts.stretched, n, x, length, own)
+    assert found is not None  # the longer element, of which this one is a part, has a solution
+    rest = parts.others.flown(others, t - piece.since).q
+    return np.concatenate((found[2].q[-1], parts.others.contact.modes.by_shape(rest)))
+
+
+def energy_lost(problem: DynamicProblem, pieces: tuple[FlightPiece, ...]) -> float:
+    """Return the energy that damping dissipates in a flight, in units of m v0^2."""
+    parts = FlightProblem(problem)
+    return sum(
+        integral(piece.made, DAMPED)
+        + parts.others.flight_loss(parts.split(piece.start)[1], piece.end - piece.since)
+        for piece in pieces
+    )

@@ -1,4 +1,4 @@
-"""Model error of impacts by stretching of the plate, which the linear modes neglect.
+"""Model error of impacts by stretching of the plate: by its neglect, or what remains with it.
 
 The estimates are multiples of the relative stiffening S = A (w/H)^2 under a static load. They are
 not proved: their factors were chosen so that they cover the differences between a linear and a
@@ -8,6 +8,7 @@ plastic, 548 viscoelastic; in 222 the plate is damped, and in 200 damping is com
 or viscoelastic contact. The tests repeat a few of them.
 """
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -42,6 +43,11 @@ join it with the next one: half of the smallest one that did; and the same over 
 splits or joins it: the smallest one that did was 1/1.9 of it."""
 
 
+ROTATION, IN_PLANE = 1.0, 4.0
+"""Relative error of the forces of stretching over the mean square of the slope, and over H/(c_p T)
+with the speed c_p of pressure waves in the plane and the duration T of the first contact."""
+
+
 class Deflections(NamedTuple):
     """Deflections of the plate at the axis [m].
 
@@ -70,12 +76,14 @@ def deflections_of(law: ContactLaw, motion: "DynamicImpact") -> Deflections:
 def stretching_error(
     law: ContactLaw, motion: "DynamicImpact", deflections: Deflections
 ) -> dict[str, float]:
-    """Return the relative error of each result by the neglect of stretching.
+    """Return the relative error of each result by stretching, or by its neglect.
 
     Later contacts, and with them the restitution, depend on the phase of the plate's vibration, and
     change more. If the first contact splits or joins the next one, its duration may change by more,
     see `jump_warnings`.
     """
+    if law.stretches:
+        return _remaining_errors(law, motion, deflections)
     size = float(stretching(law.model, deflections.largest))
     sizes = np.asarray(stretching(law.model, deflections.so_far), dtype=np.float64)
     rebound = abs(motion.restitution) if motion.inertia.complete else 1.0  # else unknown
@@ -88,9 +96,45 @@ def stretching_error(
     }
 
 
+def _remaining_errors(
+    law: ContactLaw, motion: "DynamicImpact", deflections: Deflections
+) -> dict[str, float]:
+    """Return the relative errors with stretching: by in-plane inertia and large slopes.
+
+    They are the errors by its neglect, for a stiffening of at most 1, times the relative error of
+    the forces of stretching.
+    """
+    size = min(1.0, float(stretching(law.model, deflections.largest)))
+    size *= force_error(law, motion, deflections)
+    rebound = abs(motion.restitution) if motion.inertia.complete else 1.0  # else unknown
+    one = len(motion.histories) == 1
+    return {
+        "contact_time": TIME * size,
+        "max_indentation": DEPTH * size,
+        "max_force": (PEAK if one else FORCE) * size,
+        "max_contact_radius": (PEAK if one else RADIUS) * size,
+        "restitution": SPEED * size / max(rebound, 1e-6),
+    }
+
+
+def force_error(law: ContactLaw, motion: "DynamicImpact", deflections: Deflections) -> float:
+    """Return the relative error of the forces of stretching by what their model neglects [1].
+
+    The middle plane has inertia, and the angle of a steep plate is not its slope.
+    """
+    model, (steepness, deflection) = law.model, motion.steepness
+    part = deflections.largest / deflection if deflection else 0.0
+    nu = model.poissons_ratio
+    fastest = math.sqrt(2.0 * model.mu / ((1.0 - nu) * model.density))
+    transit = 2.0 * float(model.h) / (fastest * motion.contact_time)
+    return ROTATION * part * part * steepness + IN_PLANE * transit
+
+
 def exceeds_modes(law: ContactLaw, motion: "DynamicImpact", outputs: Sequence[str]) -> bool:
     """Return whether stretching changes each of some outputs much more than the omitted modes."""
     inertia = motion.inertia
+    if law.stretches:
+        return False
     # This is nearly the error of the indentation, without evaluating the deflection over time.
     rough = DEPTH * float(stretching(law.model, motion.max_indentation))
     if inertia.recounted or inertia.error_of_modes("max_indentation") > SMALL * rough:
@@ -108,6 +152,8 @@ def stress_change(law: ContactLaw, motion: "DynamicImpact") -> float:
     """
     deflection = motion.deflection_before_separation(law)
     size = float(stretching(law.model, deflection))
+    if law.stretches:
+        return force_error(law, motion, deflections_of(law, motion)) * min(1.0, FORCE * size)
     factor = 1.0 if len(motion.histories) == 1 else FORCE
     return float(membrane_stress(law.model, deflection)) + factor * size
 
@@ -147,7 +193,9 @@ def _higher(histories: list[Array], sizes: Array, later: float) -> float:
 
 
 def jump_warnings(law: ContactLaw, motion: "DynamicImpact") -> tuple[str, ...]:
-    """Warn if stretching may split the first contact, or join it with the next one."""
+    """Warn if neglected stretching may split the first contact, or join it with the next one."""
+    if law.stretches:
+        return ()
     first = float(stretching(law.model, motion.deflection_during(law, 0)))
     if first < max(SMALLEST, motion.decisive_change / MARGIN):
         return ()

@@ -15,6 +15,7 @@ from derivation.scene.contact_law.limits import local_indentation
 from derivation.scene.dynamic.contact_sequence import ImpactHistory
 from derivation.scene.dynamic.first_contact import EVALUATIONS, IRREGULAR, decisive_change, minima
 from derivation.scene.dynamic.history_at import ROUNDED, deflections, rows_of
+from derivation.scene.dynamic.stretched_flight import reach
 from derivation.scene.dynamic.time_element import A, C, E, P, V, W, Z
 from derivation.scene.effects.effect import Results
 from derivation.scene.output.html import html_table
@@ -251,10 +252,34 @@ class DynamicImpact(Motion):
 
     @cached_property
     def later_deflection(self) -> float:
-        """Largest deflection at the axis in one period of the slowest mode after the impact [m]."""
-        problem, end = self.impact_history.problem, self.impact_history.contacts[-1].end
+        """Largest deflection at the axis in one period of the slowest mode after the impact [m].
+
+        If the plate stretches, it is the bound by its energy.
+        """
+        problem, last = self.impact_history.problem, self.impact_history.contacts[-1]
+        if problem.middle_plane is not None:
+            return problem.depth * reach(problem, last.after)
+        end = last.end
         slowest = float(np.min(problem.omega, initial=np.inf))
         return self._in_flight(end, end + 2.0 * np.pi / slowest)
+
+    @cached_property
+    def steepness(self) -> tuple[float, float]:
+        """Largest mean square of the slope, and largest deflection in the same elements [m].
+
+        The mean over the plate is weighted with the energy of stretching; 0 without stretching.
+        """
+        problem = self.impact_history.problem
+        plane, by_shape = problem.middle_plane, problem.contact.modes.by_shape
+        if plane is None:
+            return 0.0, 0.0
+        ends = [
+            by_shape(piece.end.q) for one in self.impact_history.contacts for piece in one.pieces
+        ]
+        sums = np.array([plane.steepness(q) for q in ends])
+        square = (problem.depth / self.law.model.b) ** 2 * np.max(sums[:, 1]) / np.max(sums[:, 0])
+        deflection = problem.depth * max(abs(float(np.sum(q))) for q in ends)
+        return float(square), deflection
 
     def _in_flight(self, start: float, end: float) -> float:
         """Return the largest deflection at the axis [m] between two times in problem units."""

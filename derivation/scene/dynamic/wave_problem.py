@@ -6,6 +6,7 @@ from functools import lru_cache
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.yielding import units_of, yielding_of
 from derivation.scene.dynamic.contact_tables import TAIL, contact_of
+from derivation.scene.dynamic.middle_plane import MiddlePlane
 from derivation.scene.dynamic.modal import ModalPlate, bending_fraction, plate_of
 from derivation.scene.dynamic.problem import DynamicProblem
 from derivation.scene.effects.inertia import WIDER
@@ -44,6 +45,9 @@ def problem_with(law: ContactLaw, plate: ModalPlate, tail: float = TAIL) -> Dyna
     units = a, T, model.m, model.v0
     elastic_fraction = bending_fraction(model, plate.modes) if retardation else 1.0
     limit = float(law.limit), law.limit_in_words
+    depth, force = model.v0 * T, model.m * model.v0 / T
+    stretches = law.stretches
+    plane = MiddlePlane.of(model, plate.modes, depth, force) if stretches else None
     return DynamicProblem(
         contact,
         *units,
@@ -54,6 +58,7 @@ def problem_with(law: ContactLaw, plate: ModalPlate, tail: float = TAIL) -> Dyna
         yielding_of(law),
         *limit,
         elastic_fraction,
+        plane,
     )
 
 

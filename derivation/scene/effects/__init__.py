@@ -16,6 +16,7 @@ from derivation.scene.effects.non_hertzian_pressure import NonHertzianPressure
 from derivation.scene.effects.plasticity import Plasticity
 from derivation.scene.effects.sphere_elasticity import SphereElasticity
 from derivation.scene.effects.spherical_profile import SphericalProfile
+from derivation.scene.effects.stretching import Stretching
 from derivation.scene.effects.viscosity import Viscosity
 
 EFFECTS: tuple[Effect, ...] = (
@@ -31,6 +32,7 @@ EFFECTS: tuple[Effect, ...] = (
     Viscosity(),
     Gravity(),
     PlateInertia(),
+    Stretching(),
     Damping(),
 )
 """All effects, in the order of the effects table."""

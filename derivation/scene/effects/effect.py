@@ -199,6 +199,8 @@ class Effect:
         Whether the plate has inertia.
     damps
         Whether the plate modes are damped.
+    stretches
+        Whether the middle plane of the plate stretches.
     takes_rows
         Whether `bound` accepts many scenes at once.
     within
@@ -227,6 +229,7 @@ class Effect:
     plastic: ClassVar[bool] = False
     dynamic: ClassVar[bool] = False
     damps: ClassVar[bool] = False
+    stretches: ClassVar[bool] = False
     takes_rows: ClassVar[bool] = True
     within: ClassVar[str] = ""
     remedy: ClassVar[str] = ""

@@ -43,11 +43,9 @@ def mapped(matrix: Array, values: Array) -> Array:
 @cache
 def rule(n: int, times: int | None = None) -> Rule:
     """Return Gauss' rule with n nodes and its matrices; `times` nodes in time, by default n."""
-    nodes, weights = leggauss(n)
     x, w = gauss(n)
     u, u_weights = gauss(times or n)
-    # Legendre coefficients of the polynomial through values at the nodes.
-    analysis = (legvander(nodes, n - 1) * weights[:, None] * (np.arange(n) + 0.5)).T
+    analysis = _analysis(n)
 
     def values(q: Array) -> Array:
         return np.asarray(legvander(2.0 * q - 1.0, n - 1) @ analysis, dtype=np.float64)
@@ -55,21 +53,39 @@ def rule(n: int, times: int | None = None) -> Rule:
     q = 1.0 - u * u
     inner = q[:, None] + (1.0 - q)[:, None] * x
     spread = values(inner)
-    slopes = legder(np.eye(n), axis=0)
-    derivative = 2.0 * legvander(nodes, n - 2) @ slopes @ analysis
     work = np.einsum("ij,ijk->ik", w * inner**4, spread)
     path = np.einsum("ij,ijk->ik", w * inner, spread)
-    return Rule(x, w, u, u_weights, values(q), work, path, derivative)
+    return Rule(x, w, u, u_weights, values(q), work, path, derivative(n))
+
+
+@cache
+def _analysis(n: int) -> Array:
+    """Return the matrix of the Legendre coefficients of the polynomial through the nodes."""
+    nodes, weights = leggauss(n)
+    return np.asarray((legvander(nodes, n - 1) * weights[:, None] * (np.arange(n) + 0.5)).T)
+
+
+@cache
+def derivative(n: int) -> Array:
+    """Return the matrix of the slope of a polynomial at the nodes."""
+    slopes = legder(np.eye(n), axis=0)
+    return np.asarray(2.0 * legvander(leggauss(n)[0], n - 2) @ slopes @ _analysis(n))
+
+
+@cache
+def up_to(n: int) -> Array:
+    """Return the matrix of the integral of a polynomial from 0 to each node."""
+    x, w = gauss(n)
+    values = legvander(2.0 * np.outer(x, x) - 1.0, n - 1) @ _analysis(n)
+    return np.asarray(np.einsum("i,j,ijk->ik", x, w, values), dtype=np.float64)
 
 
 @cache
 def stored(n: int) -> Array:
     """Return the matrix of the integral of q^4 times a polynomial from 0 to each node."""
-    nodes, weights = leggauss(n)
     x, w = gauss(n)
-    analysis = (legvander(nodes, n - 1) * weights[:, None] * (np.arange(n) + 0.5)).T
     inner = np.outer(x, x)
-    values = legvander(2.0 * inner - 1.0, n - 1) @ analysis
+    values = legvander(2.0 * inner - 1.0, n - 1) @ _analysis(n)
     return np.asarray(np.einsum("i,ij,ijk->ik", x, w * inner**4, values), dtype=np.float64)
 
 

@@ -148,7 +148,7 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
 
 def _quasi_static(law: ContactLaw) -> ContactLaw:
     """Return the law on a plate without inertia."""
-    return law.only(lambda e: not (e.dynamic or e.damps))
+    return law.only(lambda e: not (e.dynamic or e.damps or e.stretches))
 
 
 def _at_most_one(change: Numbers) -> Numbers:

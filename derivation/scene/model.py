@@ -49,6 +49,8 @@ class InertiaSettings:
     stretching
         Whether the middle plane stretches: "auto" (if the model error without it is large), True or
         False.
+    shapes
+        Largest number of shapes that stretch the middle plane.
     """
 
     modes: int = 0
@@ -56,6 +58,7 @@ class InertiaSettings:
     pointwise: bool = False
     infinite_plate: bool = False
     stretching: str | bool = "auto"
+    shapes: int = 48
 
 
 @dataclass(frozen=True)

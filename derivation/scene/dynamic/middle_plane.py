@@ -12,8 +12,6 @@ from derivation.scene.model import Model
 from derivation.scene.numerics.quadrature import derivative, gauss, up_to
 from generated.arrays import Double as Array
 
-MOST = 48
-"""Largest number of shapes that stretch the middle plane."""
 POINTS, MORE_POINTS = 2, 16
 """Points on the radius per shape, and additional ones."""
 
@@ -51,7 +49,7 @@ class MiddlePlane:
         The tension is that of derivation step 33, with the integrals of the polynomial through the
         values at Gauss' points.
         """
-        count, nu = min(MOST, modes.phi.size), model.poissons_ratio
+        count, nu = min(model.inertia.shapes, modes.phi.size), model.poissons_ratio
         n = POINTS * count + MORE_POINTS
         x, w = gauss(n)
         slopes = modes.shapes(x * model.b)[:count] @ derivative(n).T

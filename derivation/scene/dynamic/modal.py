@@ -77,14 +77,11 @@ class Modes:
     held: "Waves | None" = None
     b: float = 1.0
 
-    def part(self, modes: slice) -> "Modes":
-        """Return some of the modes, all of those of each of their shapes."""
-        shapes = np.unique(self.shape[modes])
-        first = self.first[shapes] - (self.first[shapes[0]] if shapes.size else 0)
-        return Modes(
-            self.phi[shapes], self.omega[modes], self.inverse_modal_mass[modes], first,
-            self.bends[modes], None, self.b,
-        )  # fmt: skip
+    def some(self, modes: Indices) -> "Modes":
+        """Return some of the modes, in their order, and their shapes."""
+        shapes, first = np.unique(self.shape[modes], return_index=True)
+        omega, inverse_mass = self.omega[modes], self.inverse_modal_mass[modes]
+        return Modes(self.phi[shapes], omega, inverse_mass, first, self.bends[modes], None, self.b)
 
     @property
     def compliances(self) -> Array:

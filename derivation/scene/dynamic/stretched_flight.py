@@ -13,6 +13,8 @@ import numpy as np
 from numpy.polynomial.legendre import legval
 
 from derivation.scene.dynamic.flight import AT_ONCE, STEP, remaining_depth
+from derivation.scene.dynamic.middle_plane import MiddlePlane
+from derivation.scene.dynamic.modal import Indices
 from derivation.scene.dynamic.next_element import PHASE, stretched_step
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
 from derivation.scene.dynamic.time_element import (
@@ -84,43 +86,48 @@ class FlightProblem:
     whole: DynamicProblem
 
     @cached_property
-    def modes(self) -> int:
-        """Number of modes that stretch the plate."""
-        plane, first = self.whole.middle_plane, self.whole.contact.modes.first
+    def indices(self) -> tuple[Indices, Indices]:
+        """Indices of the modes that stretch the plate, the lowest of their shapes, and others."""
+        plane, modes = self.whole.middle_plane, self.whole.contact.modes
         assert plane is not None
-        return int(np.append(first, self.whole.omega.size)[plane.slopes.shape[0]])
+        own = modes.first[: plane.slopes.shape[0]]
+        return own, np.setdiff1d(np.arange(modes.omega.size), own)
 
     @cached_property
     def stretched(self) -> DynamicProblem:
         """The problem of the modes that stretch the plate."""
-        return self._part(slice(self.modes))
+        return self._part(self.indices[0], self.whole.middle_plane)
 
     @cached_property
     def others(self) -> DynamicProblem:
         """The problem of the other modes, without stretching."""
-        return self._part(slice(self.modes, None))
+        return self._part(self.indices[1], None)
 
-    def _part(self, part: slice) -> DynamicProblem:
-        whole, modes = self.whole, self.whole.contact.modes.part(part)
-        plane = None if part.start else whole.middle_plane
-        contact = replace(whole.contact, modes=modes)
+    def _part(self, modes: Indices, plane: MiddlePlane | None) -> DynamicProblem:
+        whole = self.whole
+        contact = replace(whole.contact, modes=whole.contact.modes.some(modes))
         return replace(whole, contact=contact, middle_plane=plane, retardation_time=0.0)
 
     def split(self, state: ImpactState) -> tuple[ImpactState, ImpactState]:
         """Return the states of both parts."""
-        k = self.modes
-        return (
-            state._replace(q=state.q[:k], q_dot=state.q_dot[:k]),
-            state._replace(q=state.q[k:], q_dot=state.q_dot[k:]),
+        own, others = (
+            state._replace(q=state.q[part], q_dot=state.q_dot[part]) for part in self.indices
         )
+        return own, others
 
     def joined(self, stretched: ImpactState, others: ImpactState, moved: float) -> ImpactState:
         """Return the state of all modes; the others have moved the face by a distance."""
         return stretched._replace(
-            q=np.concatenate((stretched.q, others.q)),
-            q_dot=np.concatenate((stretched.q_dot, others.q_dot)),
+            q=self.together(stretched.q, others.q),
+            q_dot=self.together(stretched.q_dot, others.q_dot),
             approach=stretched.approach - moved,
         )
+
+    def together(self, stretched: Array, others: Array) -> Array:
+        """Return values of all modes."""
+        values = np.empty(self.whole.omega.size)
+        values[self.indices[0]], values[self.indices[1]] = stretched, others
+        return values
 
 
 def flight(problem: DynamicProblem, n: int, after: ImpactState, radius: float, most: int) -> Flight:
@@ -174,8 +181,8 @@ def _piece(
         made, nodes, values = found
         overlap = values.approach
         if parts.whole.retardation_time:
-            still = np.zeros((n, parts.others.contact.modes.phi.size))
-            q = np.concatenate((values.q, still), axis=1)
+            q = np.zeros((n, parts.whole.omega.size))
+            q[:, parts.indices[0]] = values.q
             overlap = overlap - remaining_depth(parts.whole, t + nodes.since, radius, q)
         return made, np.asarray(radau(n).analysis @ overlap, dtype=np.float64)
 
@@ -277,7 +284,7 @@ def shapes_in_flight(problem: DynamicProblem, pieces: tuple[FlightPiece, ...], t
     found = free_element(parts.stretched, n, x, length, own)
     assert found is not None  # the longer element, of which this one is a part, has a solution
     rest = parts.others.flown(others, t - piece.since).q
-    return np.concatenate((found[2].q[-1], parts.others.contact.modes.by_shape(rest)))
+    return problem.contact.modes.by_shape(parts.together(found[2].q[-1], rest))
 
 
 def energy_lost(problem: DynamicProblem, pieces: tuple[FlightPiece, ...]) -> float:

@@ -114,6 +114,8 @@ class InertiaDetails:
     echo_ripple, echo_error
         Bound on the change of a viscoelastic force by short waves from the edge in the omitted
         modes, over the largest force; the error of the largest force by it [1].
+    shape_error
+        Estimated error of each result by the shapes that do not stretch the plate [1].
     first_change
         Largest such change of duration, impulse and peak force of the first of several contacts.
     jump
@@ -139,6 +141,7 @@ class InertiaDetails:
     first_change: float = math.nan
     echo_ripple: float = 0.0
     echo_error: float = 0.0
+    shape_error: Results = (0.0, 0.0, 0.0, 0.0, 0.0)
 
     @property
     def complete(self) -> bool:
@@ -153,7 +156,8 @@ class InertiaDetails:
 
     def error_of_modes(self, output: str) -> float:
         """Return the estimated error of an output by omitted modes [1]."""
-        return max(self.error_by_change(output), self.error_by_ripple(output))
+        by_shapes = self.shape_error[OUTPUTS.index(output)]
+        return by_shapes + max(self.error_by_change(output), self.error_by_ripple(output))
 
     def error_by_change(self, output: str) -> float:
         """Return that error as estimated from changes of the results [1]."""

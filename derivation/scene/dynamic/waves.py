@@ -30,9 +30,10 @@ from derivation.scene.dynamic.mode_count import (
 )
 from derivation.scene.dynamic.not_usable import not_usable
 from derivation.scene.dynamic.reach import OutOfReachError, Reach
-from derivation.scene.dynamic.refinement import TOLERANCE_FRACTION, Refinement
+from derivation.scene.dynamic.refinement import KEPT, TOLERANCE_FRACTION, Refinement
 from derivation.scene.dynamic.results import dynamic_impact_of
 from derivation.scene.dynamic.runs import LOOSE, WORK, Budget, time_tolerance
+from derivation.scene.dynamic.stretched_shapes import with_enough_shapes, with_shape_error
 from derivation.scene.dynamic.time_in_contact import FEWER, check_deflected, check_long, nodes_for
 from derivation.scene.dynamic.wave_motion import DynamicImpact
 from derivation.scene.dynamic.wave_problem import problem_of
@@ -79,6 +80,7 @@ def impact(
         check_resolving(law)
     check_long(law, time_tolerance(goal))
     budget, reach, first = Budget(WORK), Reach(law, outputs, need), law.model.b
+    law, branches = with_enough_shapes(law, need), law.model.inertia.branches
     rough: DynamicImpact | None = None
     coarse: ImpactHistory | None = None
     if law.model.inertia.infinite_plate and not law.model.inertia.modes:
@@ -91,7 +93,31 @@ def impact(
     while law.model.inertia.infinite_plate and wave_returned(run):
         law = wider(law, first, run)
         run = Refinement(law, goal, reach, budget).impact()
-    return run
+    if not law.stretches:
+        return run
+    run = with_shape_error(law, run, budget, goal)
+    if not _jumps_by_branches(law, run, branches, reach):
+        return run
+    law = branching(law, "all")
+    run = Refinement(law, goal, reach, budget).impact()
+    return with_shape_error(law, run, budget, goal)
+
+
+def _jumps_by_branches(law: ContactLaw, run: DynamicImpact, given: str, reach: Reach) -> bool:
+    """Return whether a tolerance is missed because omitted branches may make a duration jump.
+
+    Parameters
+    ----------
+    given
+        The branches of the scene; only if they are "auto" some may have been omitted.
+    """
+    inertia, omits = run.inertia, given == "auto" and law.model.inertia.branches == "A0"
+    if law.viscous or not omits or not inertia.complete or "contact_time" not in reach.outputs:
+        return False
+    every = branching(law, "all")
+    if not inertia.jump or not followed(every, finer(every, affordable(every))):
+        return False
+    return inertia.error(reach.outputs) > KEPT * reach.need
 
 
 def check_simulable(law: ContactLaw, rtol: float | None) -> None:

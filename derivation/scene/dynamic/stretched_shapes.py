@@ -1,0 +1,65 @@
+"""The number of shapes that stretch the plate, and the error of the others.
+
+All shapes vibrate, but only the first ones stretch the middle plane: its forces decrease fast with
+the wave number. The error is estimated with few modes, because fast ones hardly change it.
+"""
+
+from dataclasses import replace
+
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.dynamic.first_contact import IRREGULAR
+from derivation.scene.dynamic.mode_convergence import compare
+from derivation.scene.dynamic.mode_count import branching
+from derivation.scene.dynamic.results import UNKNOWN
+from derivation.scene.dynamic.runs import Budget, run_with, time_tolerance
+from derivation.scene.dynamic.time_in_contact import FEWER
+from derivation.scene.dynamic.wave_motion import DynamicImpact
+from derivation.scene.effects.effect import Results
+from derivation.scene.errors import SceneError
+from derivation.scene.scene import OUTPUTS
+
+MORE, ACCURATE = 96, 0.05
+"""Number of shapes for a tolerance of at most this."""
+LEFT = 0.25
+"""Estimated error of the omitted shapes over the change since half as many. At least a third would
+be left if it decreased as the square of their number; in simulations it decreased faster."""
+
+
+def with_shapes(law: ContactLaw, shapes: int) -> ContactLaw:
+    """Return a law in which a number of shapes stretch the plate."""
+    model = law.model
+    return replace(law, model=replace(model, inertia=replace(model.inertia, shapes=shapes)))
+
+
+def with_enough_shapes(law: ContactLaw, need: float) -> ContactLaw:
+    """Return a law in which enough shapes stretch the plate for an error of the results."""
+    return with_shapes(law, MORE) if law.stretches and need <= ACCURATE else law
+
+
+def with_shape_error(
+    law: ContactLaw, run: DynamicImpact, budget: Budget, goal: float
+) -> DynamicImpact:
+    """Return a run with the estimated error of the shapes that do not stretch the plate."""
+    shapes = law.model.inertia.shapes
+    if run.impact_history.problem.contact.modes.phi.size <= shapes or not run.inertia.complete:
+        return run  # the change with the number of modes includes it
+    return replace(run, inertia=replace(run.inertia, shape_error=_error(law, shapes, budget, goal)))
+
+
+def _error(law: ContactLaw, shapes: int, budget: Budget, goal: float) -> Results:
+    """Return the estimated relative error of each result [1]."""
+    lowest, close = branching(law, "A0"), time_tolerance(goal)
+    try:
+        fewer, all_of_them = (
+            run_with(with_shapes(lowest, count), shapes, budget, close, FEWER)
+            for count in (shapes // 2, shapes)
+        )
+    except SceneError:  # so few modes may make the plate more curved than the sphere
+        return UNKNOWN
+    if not (fewer.inertia.complete and all_of_them.inertia.complete):
+        return UNKNOWN
+    changed = compare(fewer, all_of_them).inertia
+    time, depth, force, radius, speed = (
+        LEFT / IRREGULAR * changed.error_of_modes(name) for name in OUTPUTS
+    )
+    return time, depth, force, radius, speed

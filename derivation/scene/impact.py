@@ -29,13 +29,6 @@ from derivation.scene.dynamic.stretching_error import (
     deflections_of,
     jump_warnings,
 )
-from derivation.scene.dynamic.stretching_needed import (
-    certain,
-    needed,
-    not_stretched,
-    with_reason,
-    with_stretching,
-)
 from derivation.scene.dynamic.unlike_bodies import unlike_jump_warnings
 from derivation.scene.effects.effect import Results
 from derivation.scene.errors import SceneError, ToleranceError
@@ -125,31 +118,11 @@ def simulate(
 
 
 def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> Result:
-    """Simulate the impact of a scene, with the warnings about its units first.
-
-    It is simulated with stretching if the model error without it would be too large.
-    """
-    linear = _simulated_with(scene, rtol, on_units)
-    if linear is not None and not needed(linear):
-        return linear
-    try:
-        found = _simulated_with(with_stretching(scene), rtol, on_units)
-        assert found is not None  # stretching is enabled
-    except SceneError as error:
-        if linear is None:
-            raise
-        return replace(linear, warnings=(*linear.warnings, not_stretched(error)))
-    return with_reason(found, scene)
-
-
-def _simulated_with(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> Result | None:
-    """Simulate the impact of a scene; None if its model error certainly requires stretching."""
+    """Simulate the impact of a scene, with the warnings about its units first."""
     scene = toleranced(scene, None if rtol is None else check_rtol(rtol))
-    if scene.measured is not None and _stretches_before_fit(scene, rtol):
-        return None
+    if scene.measured is not None:
+        _check_before_fit(scene, rtol)
     rtol, selected = selected_effects(scene, rtol)
-    if certain(selected.law):
-        return None
     selected, numbers, accuracy = _solved(scene, selected, rtol)
     contact_time, delta, _, a, _ = numbers
     law, model = selected.law, selected.law.model
@@ -209,22 +182,19 @@ def _simulated_with(scene: Scene, rtol: float | None, on_units: tuple[str, ...])
     )  # fmt: skip
 
 
-def _stretches_before_fit(scene: Scene, rtol: float | None) -> bool:
-    """Return whether stretching is certainly required for any value of a constant.
+def _check_before_fit(scene: Scene, rtol: float | None) -> None:
+    """Reject a scene that fails for any value of a constant before the value is determined.
 
     Raises
     ------
     SceneError
-        If its plate has inertia, and the impact cannot be simulated for any value.
+        If its plate has inertia, and the impact cannot be simulated.
     """
     from derivation.scene.dynamic.waves import check_simulable
 
     rtol, selected = selected_effects(without_constant(scene), rtol)
-    if certain(selected.law):
-        return True
     if selected.law.dynamic:
         check_simulable(selected.law, rtol)
-    return False
 
 
 def _solved(

@@ -47,8 +47,7 @@ class InertiaSettings:
     infinite_plate
         Whether the plate is so large that no wave returns from its edge.
     stretching
-        Whether the middle plane stretches: "auto" (if the model error without it is large), True or
-        False.
+        Whether the middle plane stretches.
     shapes
         Largest number of shapes that stretch the middle plane.
     """
@@ -57,7 +56,7 @@ class InertiaSettings:
     branches: str = "auto"
     pointwise: bool = False
     infinite_plate: bool = False
-    stretching: str | bool = "auto"
+    stretching: bool = False
     shapes: int = 48
 
 

@@ -7,7 +7,9 @@ deflection,
 
     sigma = static stress(P, a) + sum S_n (q_n - c_n P_j).
 
-Modes that are much faster than the impact are omitted, because they respond quasi-statically.
+If the plate stretches, its forces also drive the modes, and the tension of the middle plane on the
+axis is added. Modes that are much faster than the impact are omitted, because they respond
+quasi-statically.
 
 Shear waves cross the thickness more slowly than pressure waves, in a nearly incompressible plate
 only after many reflections of these. The largest stress may therefore occur after the last
@@ -35,6 +37,7 @@ from derivation.scene.dynamic.mode_count import (
     mode_total,
 )
 from derivation.scene.dynamic.model_error import echoes_during
+from derivation.scene.dynamic.stretching_history import stretching_history
 from derivation.scene.dynamic.time_element import A, P
 from derivation.scene.dynamic.wave_motion import DynamicImpact
 from derivation.scene.dynamic.wave_problem import echo_time
@@ -99,7 +102,7 @@ def back_face(motion: DynamicImpact) -> BackFace:
     if echoes_during(law.model, motion.contact_time) < 1.0:
         return BackFace(math.nan, math.nan, None)
     until = stress_end(motion)
-    if mode_total(law, affordable(law)) > MODES:
+    if mode_total(law, affordable(law)) > MODES and not law.stretches:
         law = _narrower(law, until)
     count = _count(law, until)
     with one_thread(), np.errstate(all="ignore"):
@@ -159,17 +162,38 @@ def _stress_history(motion: DynamicImpact, law: ContactLaw, count: int) -> Stres
     for touching in motion.inertia.contacts:
         if touching.start > end:
             times = waves.times(end, touching.start)
-            stress, z = waves.flown(z, times)
+            stress, z = _flown(motion, waves, z, times)
             found.append((times, stress))
         times, end = waves.times(touching.start, touching.end), touching.end
         rows = motion.rows(times)
         a = np.clip(rows[A], SMALL * law.model.h, waves.widest)
-        stress, z = waves.driven(z, times, a, rows[P])
+        stress, z = _driven(motion, waves, z, times, a, rows[P])
         found.append((times, stress))
     if stress_end(motion) > end:
         times = waves.times(end, stress_end(motion))
-        found.append((times, waves.flown(z, times)[0]))
+        found.append((times, _flown(motion, waves, z, times)[0]))
     return StressHistory(*map(np.concatenate, zip(*found, strict=True)))
+
+
+def _flown(
+    motion: DynamicImpact, waves: "_Waves", z: Amplitudes, times: Array
+) -> tuple[Array, Amplitudes]:
+    """Return the stress in free flight, and the amplitudes at its end."""
+    if not motion.law.stretches:
+        return waves.flown(z, times)
+    none = np.zeros_like(times)
+    return _driven(motion, waves, z, times, none + SMALL * waves.law.model.h, none)
+
+
+def _driven(
+    motion: DynamicImpact, waves: "_Waves", z: Amplitudes, times: Array, a: Array, force: Array
+) -> tuple[Array, Amplitudes]:
+    """Return the stress under forces, with that of stretching, and the amplitudes at its end."""
+    if not motion.law.stretches:
+        return waves.driven(z, times, a, force)
+    pull, tension = stretching_history(motion.impact_history, times)
+    stress, z = waves.driven(z, times, a, force, pull)
+    return stress + tension / (2.0 * waves.law.model.h), z
 
 
 @dataclass(frozen=True)
@@ -214,7 +238,7 @@ class _Waves:
         return stress, z * np.exp(self.decay * (times[-1] - times[0]))
 
     def driven(
-        self, z: Amplitudes, times: Array, a: Array, force: Array
+        self, z: Amplitudes, times: Array, a: Array, force: Array, pull: Array | None = None
     ) -> tuple[Array, Amplitudes]:
         """Return the stress in a contact, and the amplitudes at its end.
 
@@ -222,6 +246,8 @@ class _Waves:
         ----------
         a, force
             Contact radius [m] and force [N] at the times.
+        pull
+            Additional forces on the first shapes at the times [N].
         """
         step = float(times[1] - times[0])
         y = self.decay * step
@@ -230,6 +256,9 @@ class _Waves:
         both, late = step * (both - late), step * late
         modes = self.plate.modes
         driving = force[:, None] * self.modal_force_ratios(modes, a)
+        if pull is not None:
+            shapes = min(pull.shape[1], driving.shape[1])
+            driving[:, :shapes] += pull[:, :shapes]
         found = [np.array([z.imag @ self.weights])]
         for part in np.array_split(np.arange(1, times.size), 1 + times.size * z.size // AT_ONCE):
             early, now = (driving[places][:, modes.shape] for places in (part - 1, part))

@@ -36,8 +36,6 @@ scenes."""
 SPRING, DEFLECTED = 5.0, 0.9
 """Sphere mass over mass of the first mode from which the plate deflects about as a spring, and the
 smallest ratio of its deflection to that of the spring: 0.92 to 0.98 in 22 random impacts."""
-REACHED = 0.5
-"""Deflection over its rough estimate that an impact under a lighter sphere certainly reaches."""
 STOPPED = 64
 """Largest number of modes from which the least time in contact is estimated."""
 TIMES = 801
@@ -104,22 +102,10 @@ def largest_deflection(law: ContactLaw) -> float:
     It is at most about that under a heavy sphere, and that of an infinite plate under an inelastic
     impact.
     """
-    _, swing = _heaviness(law)
-    return min(law.model.v0 * swing / math.pi, deflection_of_infinite(law))
-
-
-def deflection_of_infinite(law: ContactLaw) -> float:
-    """Return the deflection [m] of an infinite plate under an inelastic impact."""
     model = law.model
-    return model.v0 * scales.time_unit(model, law.modulus) * scales.zener_number(model)
-
-
-def least_deflection(law: ContactLaw) -> float:
-    """Return a deflection [m] that the plate of an impact certainly reaches without stretching."""
-    ratio, swing = _heaviness(law)
-    if ratio > SPRING:
-        return DEFLECTED * law.model.v0 * swing / math.pi
-    return REACHED * largest_deflection(law)
+    _, swing = _heaviness(law)
+    infinite = scales.time_unit(model, law.modulus) * scales.zener_number(model)
+    return model.v0 * min(swing / math.pi, infinite)
 
 
 def check_long(law: ContactLaw, tolerance: float) -> None:
@@ -161,7 +147,7 @@ def check_deflected(law: ContactLaw, tolerance: float) -> None:
     """
     model = law.model
     ratio, swing = _heaviness(law)
-    free = model.inertia.modes or model.inertia.infinite_plate or model.inertia.stretching
+    free = model.inertia.modes or model.inertia.infinite_plate or law.stretches
     deflection = DEFLECTED * model.v0 * swing / math.pi
     limit = doubling_deflection(model)
     if free or ratio <= SPRING or deflection < limit:
@@ -172,7 +158,7 @@ def check_deflected(law: ContactLaw, tolerance: float) -> None:
         "which the model neglects, doubles the stiffness of the plate, got at least about "
         f"{deflection:.2g} m ({thicknesses:.2g} thicknesses) under a sphere {ratio:.3g} times as "
         "heavy as its first mode; use a thicker or smaller plate"
-        f"{_slower(law, tolerance, limit, swing)}, remove effects.stretching = false, or set "
+        f"{_slower(law, tolerance, limit, swing)}, set effects.stretching = true, or set "
         "inertia.modes to simulate a plate that does not stretch"
     )
 

@@ -6,15 +6,11 @@ from derivation.scene.effects.effect import Bound, BoundContext, Effect, none_of
 from derivation.scene.effects.inertia import PlateInertia
 from derivation.scene.model import Model
 
-NAME = "stretching"
-REPLACED = 0.1
-"""Model error by stretching of any result, without it, above which it is included [1]."""
-
 
 class Stretching(Effect):
     """Tension of the middle plane by the slope of the plate, in equilibrium in the plane."""
 
-    name = NAME
+    name = "stretching"
     adds = "stretching of the plate's middle plane (von Karman)"
     equation = "q_j'' + omega_j^2 q_j = omega_j^2 c_j (P_j - 2 pi int_0^b N_r w' s_j' r dr)"
     parameter = "deflection over thickness w/H"
@@ -28,18 +24,15 @@ class Stretching(Effect):
     remedy = "give plate.density [kg/m^3] and a plate of finite extent"
 
     def not_applicable_reason(self, model: Model) -> str:
-        """Return a reason if the plate cannot stretch, or a linear plate is accurate enough."""
-        wanted = model.inertia.stretching
+        """Return a reason if the scene does not include it, or the plate cannot stretch."""
+        if not model.inertia.stretching:
+            return "not enabled in the scene; the model error includes its neglect"
         if not model.density:
             return "the density of the plate is unknown"
-        if model.inertia.infinite_plate:
-            return "the plate is infinite; the model error includes its stretching"
-        if wanted is False:
-            return "disabled in the scene; the model error includes it"
-        return "" if wanted is True else "included if the model error without it exceeds 10 %"
+        return "the plate is infinite" if model.inertia.infinite_plate else ""
 
     def value(self, model: Model, a: float) -> float:  # noqa: ARG002
-        """Return NaN: the deflection is known after the simulation."""
+        """Return NaN: the deflection is known only after the simulation."""
         return math.nan
 
     def bound(self, model: Model, context: BoundContext) -> Bound:  # noqa: ARG002

@@ -22,9 +22,11 @@ class Effects(Table):
     sphere_elasticity, spherical_profile, non_hertzian_pressure, plasticity, viscosity, gravity
         Effects of sphere and contact: "auto", the default, to include the effect if the tolerance
         requires it; True to include it, which requires its key; False to disable it.
-    bending, finite_thickness, finite_radius, edge, inertia, stretching, damping
-        Effects of the plate, with the same values. Stretching is not bounded before a simulation:
-        "auto" includes it if the model error without it exceeds 10 %.
+    bending, finite_thickness, finite_radius, edge, inertia, damping
+        Effects of the plate, with the same values.
+    stretching
+        Whether the middle plane of the plate stretches, by default False. It requires inertia, and
+        a plate with a density and of finite extent.
     compare_paper_motion
         Whether to print the paper's perturbation motion, too; by default False.
 
@@ -53,7 +55,11 @@ class Effects(Table):
     viscosity: Wanted = _switch("viscoelastic contact")
     gravity: Wanted = _switch("weight of the sphere during contact", False)
     inertia: Wanted = _switch("inertia of the plate", False)
-    stretching: Wanted = _switch("stretching of the plate's middle plane")
+    stretching: bool = Field(
+        default=False,
+        description="stretching of the plate's middle plane, for large deflections",
+        examples=[True],
+    )
     damping: Wanted = _switch("damping of the plate vibration")
     compare_paper_motion: bool = Field(
         default=False,

@@ -101,10 +101,13 @@ def _by_stretching(result: "Result") -> str:
             either = f"{speed} or {either}"
         remedies.append(f"{name.replace('_', ' ')} {either}")
     times, worst = deflections.largest / thickness, max(by_it.values())
+    why = ", and its slope is large"
+    if not result.effects.law.stretches:
+        why = " and stretches, which the model neglects without effects.stretching = true"
     return (
-        f"The plate deflects by {times:.2g} thicknesses and stretches, which the model neglects "
-        f"(error {up_to(worst)}). {'Speed or thickness' if slow else 'Thickness'} for an error of "
-        f"about {percent(USABLE)}: {', '.join(remedies)}."
+        f"The plate deflects by {times:.2g} thicknesses{why} (error {up_to(worst)}). "
+        f"{'Speed or thickness' if slow else 'Thickness'} for an error of about "
+        f"{percent(USABLE)}: {', '.join(remedies)}."
     )
 
 

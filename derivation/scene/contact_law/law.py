@@ -85,11 +85,8 @@ class ContactLaw:
     @property
     def half_space(self) -> "ContactLaw":
         """The law of an elastic contact on a half-space, without plate deflection or inertia."""
-        return self.only(
-            lambda e: (
-                not (isinstance(e, PlateEffect) or e.solved or e.viscous or e.plastic or e.dynamic)
-            )
-        )
+        still = self.only(lambda e: not (e.dynamic or e.stretches or isinstance(e, PlateEffect)))
+        return still.only(lambda e: not (e.solved or e.viscous or e.plastic))
 
     @property
     def of_paper(self) -> bool:

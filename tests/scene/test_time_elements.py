@@ -10,8 +10,8 @@ from derivation.scene import read
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import (
     contact_sequence,
+    modal_response,
     next_element,
-    time_element,
     time_in_contact,
     waves,
 )
@@ -82,7 +82,7 @@ def test_results_agree_within_the_tolerance_of_the_elements(
     # response of the shapes in the other way.
     with_matrices = problem.omega.size >= modal_response.SEVERAL * problem.contact.modes.phi.size
     assert with_matrices == (name == "all branches")
-    monkeypatch.setattr(time_element, "SEVERAL", math.inf if with_matrices else 0.0)
+    monkeypatch.setattr(modal_response, "SEVERAL", math.inf if with_matrices else 0.0)
     monkeypatch.setattr(next_element, "PHASE", 0.3)
     monkeypatch.setattr(next_element, "LONGEST", 0.1)
     fine = numbers(law, contact_sequence.impact_history(problem, 20))

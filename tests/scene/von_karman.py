@@ -115,13 +115,35 @@ class ThinPlate:
         slope = slopes @ q
         half = slope**2 / 2.0
         load = slope * (curvatures @ q) + (1.0 - nu) / r * half
-        free = half - half[-1] if self.edge == "simply-supported" else half
+        # N_r vanishes on a supported edge, and N_r + N_phi on the paper's.
+        fixed = {"simply-supported": 1.0, "paper": (1.0 + nu) / 2.0}.get(self.edge, 0.0)
+        free = half - fixed * half[-1]
         own = self.tension @ load
         return own + 12.0 * self.bending_stiffness / self.thickness**2 * free, slope
 
     def force_by_stretching(self, tension: Array, slope: Array) -> Array:
         """Return the modal forces [N] of the stretched middle plane."""
         return -2.0 * np.pi * (self.weights * tension * slope) @ self.shapes[1]
+
+    def in_plane(self, count: int) -> "InPlane":
+        """Return modes of the middle plane in its plane."""
+        nu, b = self.nu, self.radius
+
+        def at_edge(k: float) -> float:
+            held = {"clamped": j1(k), "paper": j0(k)}
+            return float(held.get(self.edge, k * j0(k) - (1.0 - nu) * j1(k)))
+
+        grid = np.arange(0.3, np.pi * (count + 3), 0.1)
+        values = [at_edge(k) for k in grid]
+        changes = np.flatnonzero(np.diff(np.sign(values)))[:count]
+        k = np.array([brentq(at_edge, grid[i], grid[i + 1], xtol=1e-13) for i in changes])
+        x = np.outer(self.r / b, k)
+        strains = (k / b) * j0(x) - (1.0 - nu) * j1(x) / self.r[:, None]
+        area = b * b * (j0(k) ** 2 + j1(k) ** 2 - 2.0 * j0(k) * j1(k) / k)
+        stiffness = 12.0 * self.bending_stiffness / self.thickness**2
+        masses = np.pi * self.density * self.thickness * area
+        frequencies = np.sqrt(stiffness / (self.density * self.thickness)) * k / b
+        return InPlane(strains, masses, frequencies, stiffness)
 
     @cached_property
     def bending_stresses(self) -> Array:
@@ -144,6 +166,15 @@ class ThinPlate:
         q = centre / stiffnesses
         stretched = -q @ self.force_by_stretching(*self.stretched(q))
         return float(stretched / (q @ (stiffnesses * q)) * (self.thickness / (centre @ q)) ** 2)
+
+
+class InPlane(NamedTuple):
+    """Modes of the middle plane: u' + nu u/r on the radius, masses, frequencies; stiffness."""
+
+    strains: Array
+    masses: Array
+    frequencies: Array
+    stiffness: float
 
 
 class Motion(NamedTuple):
@@ -217,23 +248,33 @@ def impact(
     speed: float,
     stretched: bool,
     loss_factor: float = 0.0,
+    in_plane: int = 0,
+    static_plane: bool = False,
 ) -> dict[str, float]:
     """Simulate the impact of a sphere.
+
+    With a number `in_plane` of modes the middle plane has inertia in its plane; with `static_plane`
+    these modes only determine the time step.
 
     The modes move exactly between impulses of the contact force and of stretching. The simulation
     ends when the sphere has been above the plate for three times the time of the last contact.
     """
-    centre, omega, damping = plate.shapes[-1], plate.frequencies, loss_factor / 2.0
+    plane = plate.in_plane(in_plane)
+    bending, none = plate.frequencies.size, np.zeros(in_plane)
+    centre = np.append(plate.shapes[-1], none)
+    omega = np.append(plate.frequencies, plane.frequencies)
+    masses = np.append(plate.masses, plane.masses)
+    damping = np.append(np.full(bending, loss_factor / 2.0), none)
     duration = 2.9 * (mass**2 / (contact.stiffness**2 * speed)) ** 0.2
-    dt = min(duration / 100.0, 0.25 / omega[-1])
-    slower = math.sqrt(1.0 - damping**2)
+    dt = min(duration / 100.0, 0.25 / np.max(omega))
+    slower = np.sqrt(1.0 - damping**2)
     decay = np.exp(-damping * omega * dt)
     cosine, sine = decay * np.cos(slower * omega * dt), decay * np.sin(slower * omega * dt) / slower
     q, rate, y, v, t = 0.0 * omega, 0.0 * omega, 0.0, speed, 0.0
     first, last = 0.0, duration
     peak = depth = deflected = widest = stress = largest = 0.0
     q_push, y_push, pull = 0.0 * omega, 0.0, 0.0 * omega
-    softness = dt / 2.0 * (1.0 / mass + float(np.sum(centre**2 / plate.masses)))
+    softness = dt / 2.0 * (1.0 / mass + float(np.sum(centre**2 / masses)))
     while t < 3.0 * last or v > 0.0 or y > -deflected:
         rate, v = rate + dt / 2.0 * q_push, v + dt / 2.0 * y_push
         q, rate = (
@@ -241,14 +282,19 @@ def impact(
             rate * (cosine - damping * sine) - q * omega * sine,
         )
         y, t = y + v * dt, t + dt
-        bent = float(plate.bending_stresses @ q)
+        bent = float(plate.bending_stresses @ q[:bending])
         if stretched:
-            tension, slope = plate.stretched(q)
-            pull = plate.force_by_stretching(tension, slope) / plate.masses
+            tension, slope = plate.stretched(q[:bending])
+            pushed = none
+            if in_plane and not static_plane:
+                half = slope**2 / 2.0
+                tension = plane.stiffness * (half + plane.strains @ q[bending:])
+                pushed = -2.0 * np.pi * plane.stiffness * (plate.weights * half) @ plane.strains
+            pull = np.append(plate.force_by_stretching(tension, slope), pushed) / masses
             bent += float(tension[0]) / plate.thickness
         closing = v - centre @ (rate + dt / 2.0 * pull)
         force, radius = contact.press(y - centre @ q, Motion(closing, softness, dt))
-        q_push, y_push = force * centre / plate.masses + pull, -force / mass
+        q_push, y_push = force * centre / masses + pull, -force / mass
         rate, v = rate + dt / 2.0 * q_push, v + dt / 2.0 * y_push
         peak, depth, widest = max(peak, force), max(depth, y), max(widest, radius)
         deflected = max(deflected, abs(centre @ q))
@@ -258,4 +304,5 @@ def impact(
     return {
         "contact_time": first, "max_indentation": depth, "max_force": peak,
         "max_contact_radius": widest, "restitution": -v / speed, "max_tensile_stress": largest,
+        "deflection": deflected,
     }  # fmt: skip

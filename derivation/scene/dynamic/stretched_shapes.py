@@ -11,7 +11,7 @@ from derivation.scene.dynamic.first_contact import IRREGULAR
 from derivation.scene.dynamic.mode_convergence import compare
 from derivation.scene.dynamic.mode_count import branching
 from derivation.scene.dynamic.results import UNKNOWN
-from derivation.scene.dynamic.runs import Budget, run_with, time_tolerance
+from derivation.scene.dynamic.runs import WORK, Budget, run_with, time_tolerance
 from derivation.scene.dynamic.time_in_contact import FEWER
 from derivation.scene.dynamic.wave_motion import DynamicImpact
 from derivation.scene.effects.effect import Results
@@ -36,19 +36,20 @@ def with_enough_shapes(law: ContactLaw, need: float) -> ContactLaw:
     return with_shapes(law, MORE) if law.stretches and need <= ACCURATE else law
 
 
-def with_shape_error(
-    law: ContactLaw, run: DynamicImpact, budget: Budget, goal: float
-) -> DynamicImpact:
-    """Return a run with the estimated error of the shapes that do not stretch the plate."""
+def with_shape_error(law: ContactLaw, run: DynamicImpact, goal: float) -> DynamicImpact:
+    """Return a run with the estimated error of the shapes that do not stretch the plate.
+
+    The simulations with few modes are not charged to the budget of the impact.
+    """
     shapes = law.model.inertia.shapes
     if run.impact_history.problem.contact.modes.phi.size <= shapes or not run.inertia.complete:
         return run  # the change with the number of modes includes it
-    return replace(run, inertia=replace(run.inertia, shape_error=_error(law, shapes, budget, goal)))
+    return replace(run, inertia=replace(run.inertia, shape_error=_error(law, shapes, goal)))
 
 
-def _error(law: ContactLaw, shapes: int, budget: Budget, goal: float) -> Results:
+def _error(law: ContactLaw, shapes: int, goal: float) -> Results:
     """Return the estimated relative error of each result [1]."""
-    lowest, close = branching(law, "A0"), time_tolerance(goal)
+    lowest, close, budget = branching(law, "A0"), time_tolerance(goal), Budget(WORK)
     try:
         fewer, all_of_them = (
             run_with(with_shapes(lowest, count), shapes, budget, close, FEWER)

@@ -47,8 +47,9 @@ A, V, Z, P, W, E, LOST, LEAK, DAMPED, C = range(10)
 """Rows of an element: radius of the law, velocity, displacement, force, deflection and energy of
 the plate; per x the energies lost in the contact, by the pointwise coupling and by damping of the
 plate; and the contact radius, which differs from that of the law by the curvature of the plate."""
-CLOSE = 1e-13
-"""Relative change of the forces of stretching that is due to rounding."""
+CLOSE, NEARLY = 1e-13, 1e-9
+"""Relative change of the forces of stretching that is due to rounding, and the same if it does not
+decrease any more."""
 DIVERGED = 1e3
 """Deflection over that of the free motion at which an iteration has diverged."""
 
@@ -143,15 +144,17 @@ def deflections_at(problem: DynamicProblem, nodes: Nodes, radius: float, y: Arra
 
 def _stretched(problem: DynamicProblem, nodes: Nodes, forces: Array) -> tuple[Array, Array] | None:
     """Return deflection of each shape, and force of stretching on it, for the other forces."""
-    pull = _free_pull(problem, nodes, forces.shape)
+    pull, size = _free_pull(problem, nodes, forces.shape), math.inf
     for _ in range(NEWTON):
         q = nodes.even + nodes.moved + modal_deflections(problem, nodes, forces + pull)
         if problem.middle_plane is None:
             return q, pull
         if _diverges(nodes, q):
             return None
-        before, pull = pull, problem.middle_plane.forces(q)
-        if np.max(np.abs(pull - before)) <= CLOSE * np.max(np.abs(pull)):
+        last, before, pull = size, pull, problem.middle_plane.forces(q)
+        size = float(np.max(np.abs(pull - before)))
+        largest = float(np.max(np.abs(pull)))
+        if size <= CLOSE * largest or (size <= NEARLY * largest and size > 0.1 * last):
             return q, pull
     return None
 

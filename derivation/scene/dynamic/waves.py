@@ -95,12 +95,12 @@ def impact(
         run = Refinement(law, goal, reach, budget).impact()
     if not law.stretches:
         return run
-    run = with_shape_error(law, run, budget, goal)
+    run = with_shape_error(law, run, goal)
     if not _jumps_by_branches(law, run, branches, reach):
         return run
     law = branching(law, "all")
     run = Refinement(law, goal, reach, budget).impact()
-    return with_shape_error(law, run, budget, goal)
+    return with_shape_error(law, run, goal)
 
 
 def _jumps_by_branches(law: ContactLaw, run: DynamicImpact, given: str, reach: Reach) -> bool:

@@ -145,15 +145,10 @@ def test_code_reproduces_law_and_impact_with_only_numpy(case: str, tmp_path: Pat
     if results["impact"] is None:
         assert case == "viscous, stiff"
         return
-    assert results["impact"] == pytest.approx(moved_numbers(law), rel=3e-12, abs=1e-12)
+    assert results["impact"] == pytest.approx(list(moved(law).numbers), rel=3e-12, abs=1e-12)
     names = ("contact_time", "max_indentation", "max_force", "max_contact_radius")
     numbers = [f"{getattr(result, name):.6g}" for name in names]
     assert [f"{x:.6g}" for x in results["impact"][:4]] == numbers
-
-
-def moved_numbers(law: ContactLaw) -> list[float]:
-    result = moved(law)
-    return list(result.numbers)
 
 
 def test_code_with_every_effect_agrees_with_indent() -> None:

@@ -7,6 +7,7 @@ import signal
 import sys
 import warnings
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -34,6 +35,11 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 # Libraries that are loaded later, and processes, multiply matrices in one thread. Otherwise the
 # threads of two test processes on two cores wait for each other, which takes several times as long.
 os.environ.update(dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1"))
+
+# Matplotlib looks for all fonts again, which takes seconds, if it has no cache: tests with an own
+# folder for cached results would have none.
+_CACHE = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+os.environ.setdefault("MPLCONFIGDIR", str(_CACHE / "matplotlib"))
 
 # SymPy creates many small objects that are not deleted. With the default threshold of 700, garbage
 # collection takes a sixth of the time of tests with formulas.

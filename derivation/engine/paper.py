@@ -39,7 +39,8 @@ class Report:
         Function from the names of the sections to show to their LaTeX; None for the sections of
         `any_report`, which suit any paper.
     figures
-        Function that returns all figures by name; those of the shown sections are written.
+        Function that returns for each figure, by name, a function that draws it; those of the
+        shown sections are drawn.
     accompanying_files
         Function from the paper's folder to the contents of other files that depend on the same
         data; they are written with the whole report.
@@ -50,7 +51,7 @@ class Report:
     abstract: str = ""
     plan: Plan = any_report.PLAN
     parts: Callable[[Sequence[str]], Parts] | None = None
-    figures: Callable[[], Mapping[str, "Figure"]] = dict
+    figures: Callable[[], Mapping[str, Callable[[], "Figure"]]] = dict
     accompanying_files: Callable[[Path], Mapping[Path, str | bytes]] = _nothing
 
 

@@ -96,7 +96,7 @@ def write(
     folder, plan = writable_folder(out, paper.report_folder), paper.report()
     texts = documents(paper, sections)
     shown = {name for text in texts.values() for name in text.figures}
-    drawn = {key: figure for key, figure in plan.figures().items() if key in shown} if shown else {}
+    drawn = {key: draw() for key, draw in plan.figures().items() if key in shown} if shown else {}
     vectors = {key: figure_file(figure, ".svg") for key, figure in drawn.items()}
     with ThreadPoolExecutor() as pool:  # pandoc is another process
         pages = pool.map(lambda text: page(text, text.title, vectors), texts.values())

@@ -1,7 +1,8 @@
 """The report on the plate: its measurements, text and figures, and accompanying files."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -105,8 +106,8 @@ def report_parts(shown: Sequence[str]) -> Parts:
     return parts(material(), shown)
 
 
-def report_figures() -> dict[str, Figure]:
-    """Return every figure of the report by name."""
+def report_figures() -> dict[str, Callable[[], Figure]]:
+    """Return functions that draw the figures of the report, by name."""
     data = {name: json.loads(content) for name, content in measurement().items()}
     formulas = {formula.name: formula for _, records in chain() for formula in records}
     case = paper_case()
@@ -114,8 +115,8 @@ def report_figures() -> dict[str, Figure]:
     return (
         figures(case, simulate(load(PAPER)), gamma_2)
         | accuracy_figures(data["accuracy"])
-        | {"moving": dynamic_benchmark_figure(data["moving"])}
-        | {"elastodynamics": elastodynamics_figure(data["elastodynamics"])}
+        | {"moving": partial(dynamic_benchmark_figure, data["moving"])}
+        | {"elastodynamics": partial(elastodynamics_figure, data["elastodynamics"])}
     )
 
 

@@ -68,6 +68,7 @@ from generated.impact import COARSE_QUADRATURE, FULL_QUADRATURE, ROUNDING, histo
 from generated.impact_shapes import cut
 from generated.plasticity_kernels import hertz_radius
 from generated.plasticity_numbers import YIELD_LIMIT
+from generated.pressure import p as hertz_profile
 from generated.sensitivity import indentation_slope
 from generated.simple_impact import Estimate, Plate, law_errors
 from generated.sphere_kernels import (
@@ -173,6 +174,7 @@ __all__ = [
     "hertz_depth",
     "hertz_force",
     "hertz_pressure",
+    "hertz_profile",
     "hertz_radius",
     "hertz_stiffness",
     "history",

@@ -1,7 +1,6 @@
 """Mistakes in a user's paper: one message that states the position and the remedy."""
 
 import re
-from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
 
@@ -190,14 +189,6 @@ MISTAKES = {
         2,
     ),
 }
-
-
-@pytest.fixture(scope="module", autouse=True)
-def _cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Share stable forms of formulas that no mistake changes; they take most of the time."""
-    with pytest.MonkeyPatch.context() as environment:
-        environment.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
-        yield
 
 
 @pytest.mark.parametrize("mistake", MISTAKES)

@@ -22,7 +22,7 @@ from derivation.checks.effects import scene as random_scene
 from derivation.cli import main
 from derivation.engine.files import ROOT
 from derivation.scene import SceneError, indent, load, read, simulate
-from derivation.scene.code.code import recipe
+from derivation.scene.code.code import Recipe, recipe
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.selection.method_selection import moved
 from derivation.scene_code import scene_code
@@ -92,6 +92,11 @@ def scene_of(case: str) -> Any:
 
 
 @cache
+def recipe_of(case: str) -> Recipe:
+    return recipe(scene_of(case))
+
+
+@cache
 def code_of(case: str) -> str:
     return scene_code(scene_of(case))
 
@@ -140,15 +145,10 @@ def test_code_reproduces_law_and_impact_with_only_numpy(case: str, tmp_path: Pat
     if results["impact"] is None:
         assert case == "viscous, stiff"
         return
-    assert results["impact"] == pytest.approx(moved_numbers(law), rel=3e-12, abs=1e-12)
+    assert results["impact"] == pytest.approx(list(moved(law).numbers), rel=3e-12, abs=1e-12)
     names = ("contact_time", "max_indentation", "max_force", "max_contact_radius")
     numbers = [f"{getattr(result, name):.6g}" for name in names]
     assert [f"{x:.6g}" for x in results["impact"][:4]] == numbers
-
-
-def moved_numbers(law: ContactLaw) -> list[float]:
-    result = moved(law)
-    return list(result.numbers)
 
 
 def test_code_with_every_effect_agrees_with_indent() -> None:
@@ -199,7 +199,7 @@ def test_code_accepts_arrays_and_does_not_change_them(case: str) -> None:
 @pytest.mark.parametrize("case", [c for c in CASES if c != "viscous, stiff"])
 @pytest.mark.parametrize("factor", [0.05, 0.5, 1.3])
 def test_code_computes_impacts_at_other_speeds(case: str, factor: float) -> None:
-    made = recipe(scene_of(case))
+    made = recipe_of(case)
     model = replace(made.law.model, v0=factor * made.law.model.v0)
     reference = None
     with suppress(SceneError):  # a slow sphere may stay on a viscous plate
@@ -220,7 +220,7 @@ def test_impact_is_nan_outside_the_range(case: str, v0: float) -> None:
 
 def test_viscoelastic_force_depends_on_indentation_and_rate() -> None:
     case = "viscous, heavy"
-    names, law = names_of(case), recipe(scene_of(case)).law
+    names, law = names_of(case), recipe_of(case).law
     a = radii(case)[30]
     shape = law.at(np.array([a]))
     delta, P, k = (
@@ -253,7 +253,7 @@ def test_viscoelastic_force_depends_on_indentation_and_rate() -> None:
 
 @pytest.mark.parametrize("case", ["viscous, bent", "viscous, stiff"])
 def test_integration_with_the_inner_state_gives_the_impact(case: str) -> None:
-    names, made = names_of(case), recipe(scene_of(case))
+    names, made = names_of(case), recipe_of(case)
     model, T = made.law.model, made.motion.contact_time
 
     def rates(_: float, state: np.ndarray) -> list[float]:
@@ -306,7 +306,7 @@ def test_code_contains_no_omitted_effects(case: str) -> None:
     tree = ast.parse(code_of(case))
     actual = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
     actual |= {node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)}
-    effects = recipe(scene_of(case)).law.effects
+    effects = recipe_of(case).law.effects
     also = {
         "spherical_profile": {"non_hertzian_pressure"},
         "bending": effects - {"hertz", "gravity", "viscosity"},

@@ -1,6 +1,7 @@
 """Figures of the benchmark from its record: correct digits against run time, and scaling."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from typing import Any, Literal
 
 import matplotlib as mpl
@@ -35,14 +36,14 @@ DASHES: tuple[Dash, ...] = "-", "--", ":"
 Row = Mapping[str, Any]
 
 
-def accuracy_figures(data: Mapping[str, Any]) -> dict[str, Figure]:
-    """Return all figures of the benchmark by name."""
+def accuracy_figures(data: Mapping[str, Any]) -> dict[str, Callable[[], Figure]]:
+    """Return functions that draw the figures of the benchmark, by name."""
     figures = {
-        f"work_precision_{task}_{kind}": work_precision(data, task, kind)
+        f"work_precision_{task}_{kind}": partial(work_precision, data, task, kind)
         for task in TASKS
         for kind in KINDS
     }
-    return figures | {"scaling": scaling(data)}
+    return {**figures, "scaling": partial(scaling, data)}
 
 
 def work_precision(data: Mapping[str, Any], task: str, kind: str) -> Figure:

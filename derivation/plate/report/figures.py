@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from math import gamma, pi, sqrt
 from typing import Any
 
@@ -51,8 +52,8 @@ def linear_impact(case: Model, modes: int) -> Extremes:
     return Extremes(time, pi * case.m * case.v0 / time)
 
 
-def figures(case: Model, impact_of: Result, gamma_2: float) -> dict[str, Figure]:
-    """Return all figures of the example of the paper by name.
+def figures(case: Model, impact_of: Result, gamma_2: float) -> dict[str, Callable[[], Figure]]:
+    """Return functions that draw the figures of the example of the paper, by name.
 
     Parameters
     ----------
@@ -72,9 +73,14 @@ def figures(case: Model, impact_of: Result, gamma_2: float) -> dict[str, Figure]
         "setup": draw_setup,
         "divergence": lambda figure, case: draw_divergence(figure, case, gamma_2),
     }
-    by_name = {name: _figure(draw, case) for name, draw in drawings.items()}
+    by_name = {name: partial(_figure, draw, case) for name, draw in drawings.items()}
+    return {**by_name, "map": partial(_map, impact_of)}
+
+
+def _map(impact_of: Result) -> Figure:
+    """Return the map of the effects around the scene of a result."""
     with mpl.rc_context({"font.family": "serif"}):
-        return by_name | {"map": scene_map(impact_of, impact_of.effects.rtol)}
+        return scene_map(impact_of, impact_of.effects.rtol)
 
 
 def _figure(draw: Callable[[Figure, Model], None], case: Model) -> Figure:

@@ -10,7 +10,7 @@ modulus E* of the law, a^3 = 3 P R/(4 E*),
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from derivation.scene import kernels
 from derivation.scene.model import Model
+from derivation.scene.numerics import columns
 from derivation.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -127,6 +128,17 @@ class Bound(NamedTuple):
     energy: Numbers = 0.0
     radius: Numbers = 0.0
     results: Changes = (0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+def together(bounds: Sequence[Bound]) -> Bound:
+    """Combine the bounds of single scenes to those of many."""
+    low, up = (np.array([bound[i] for bound in bounds]) for i in (0, 1))
+    energy = columns.column(bound.energy for bound in bounds)
+    radius = columns.column(bound.radius for bound in bounds)
+    time, depth, force, width, speed = (
+        columns.column(bound.results[i] for bound in bounds) for i in range(len(bounds[0].results))
+    )
+    return Bound(low, up, energy, radius, (time, depth, force, width, speed))
 
 
 LENGTHS = {"b": "plate radius", "R": "sphere radius", "h": "half the plate thickness"}

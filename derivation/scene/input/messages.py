@@ -18,6 +18,8 @@ Fields = Mapping[str, Mapping[str, FieldInfo]]
 
 SMALLEST_NUMBER, LARGEST_NUMBER = 1e-30, 1e30
 """Limits of positive numbers in SI units, between which the formulas do not overflow."""
+FEWEST_MODES, MOST_MODES = 2, 6000
+"""Limits of the number of dynamic bending modes that a scene may give."""
 BEYOND = "greater_than_equal", "less_than_equal"
 """Errors of numbers that are too small or too large."""
 MOST, LONG = 20, 40
@@ -39,7 +41,7 @@ EXPECTED = {
     "poissons_ratio": "a number above -1 and below 0.5",
     "rtol": "a number from 1e-13 to 1",
     "compare_paper_motion": 'true or false (not "auto")',
-    "modes": '"auto" or a whole number from 2 to 6000',
+    "modes": f'"auto" or a whole number from {FEWEST_MODES} to {MOST_MODES}',
     "branches": '"auto", "A0" or "all"',
     "coupling": '"variational" or "pointwise"',
     "extent": '"finite" or "infinite"',

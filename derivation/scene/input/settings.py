@@ -5,6 +5,8 @@ from typing import Annotated, Literal, get_args
 from pydantic import Field
 
 from derivation.scene.input.bodies import Positive
+from derivation.scene.input.messages import FEWEST_MODES as FEWEST_MODES
+from derivation.scene.input.messages import MOST_MODES
 from derivation.scene.input.table import Table
 
 Output = Literal[
@@ -13,8 +15,6 @@ Output = Literal[
 OUTPUTS: tuple[Output, ...] = get_args(Output)
 TIGHTEST = 1e-13
 """Smallest relative tolerance that double precision allows."""
-FEWEST_MODES = 2
-"""Smallest number of dynamic modes that a scene may give."""
 
 
 class Accuracy(Table):
@@ -86,7 +86,7 @@ class Inertia(Table):
     40
     """
 
-    modes: Literal["auto"] | Annotated[int, Field(ge=FEWEST_MODES, le=6000)] = Field(
+    modes: Literal["auto"] | Annotated[int, Field(ge=FEWEST_MODES, le=MOST_MODES)] = Field(
         default="auto",
         description="number of dynamic bending modes; higher modes respond quasi-statically",
         examples=[40],

@@ -6,6 +6,7 @@ import numpy as np
 
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.errors import SceneError
+from derivation.scene.kernels import hertz_profile
 from derivation.scene.numerics.crossing import rise
 from derivation.scene.output.history import Pressures
 
@@ -42,8 +43,7 @@ def pressure_profile(law: ContactLaw, a: float, force: float, points: int) -> Pr
     r = max(a, hertz) * np.sin(np.linspace(0.0, np.pi / 2, points))
     pressure = _factor(law, a, force) * law.pressure(np.minimum(r, a), a)
     values = np.where(r < a, np.minimum(pressure, law.pressure_limit), 0.0)
-    peak = 1.5 * force / (np.pi * hertz * hertz)
-    return Pressures(r, values, peak * np.sqrt(np.maximum(1.0 - (r / hertz) ** 2, 0.0)))
+    return Pressures(r, values, -hertz_profile(np.minimum(r, hertz), hertz, force))
 
 
 def _factor(law: ContactLaw, a: float, force: float) -> float:

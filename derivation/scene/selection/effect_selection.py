@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from operator import itemgetter
 from typing import Any
 
 from derivation.engine.text import aligned, paragraph
@@ -13,7 +14,11 @@ from derivation.scene.model import Model
 from derivation.scene.output.html import html_table
 from derivation.scene.quantity import percent, rounded_up, upwards
 from derivation.scene.scene import OUTPUTS
-from derivation.scene.selection.omission_bounds import change_of, error_of
+from derivation.scene.selection.omission_bounds import (
+    each_change_of,
+    each_error_of,
+    error_of,
+)
 from derivation.scene.selection.selection import Selection, select
 
 HEADS = (
@@ -280,22 +285,12 @@ def _row(
     if reasons[name]:
         return EffectRow(name, effect.adds, effect.parameter, math.nan, 0.0, False, reasons[name])
     value, omitted = effect.value(model, radius), [effect, *_parts(effect, selection)]
-
-    def bound_on(outputs: Sequence[str]) -> float:
-        """Return the bound on the change of the worst of some outputs."""
-        if not included:
-            return error_of(state, omitted, outputs)
-        return change_of(state, omitted, outputs)
-
-    def grown_on(output: str) -> float:
-        """Return the bound on the change of an output, after the simulation."""
-        return growth[OUTPUTS.index(output)] * bound_on([output])
-
-    bound = bound_on(outputs) if growth == NO_GROWTH else max(map(grown_on, outputs))
+    changes = (each_change_of if included else each_error_of)(state, omitted)[:, 0].tolist()
+    grown = [factor * change for factor, change in zip(growth, changes, strict=True)]
+    bound, worst = max(((grown[OUTPUTS.index(name)], name) for name in outputs), key=itemgetter(0))
     if effect.always_included:
         why = "always included"
     elif choice[name] != "auto":
-        worst = max(outputs, key=grown_on)
         why = _forced(bool(choice[name]), bound, worst)
     elif name in selection.required:
         why = f"required by {selection.required[name]}"

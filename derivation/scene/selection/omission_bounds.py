@@ -22,6 +22,7 @@ from derivation.scene.effects.effect import (
     LawSamples,
     Numbers,
     PlateEffect,
+    together,
     weight_work_ratio,
 )
 from derivation.scene.effects.inertia import WIDER, least_restitution
@@ -32,6 +33,7 @@ from derivation.scene.effects.viscosity import (
     viscous_number,
 )
 from derivation.scene.errors import SceneError
+from derivation.scene.numerics import columns
 from derivation.scene.numerics.quadrature import NODES, mapped, rule, stored
 from derivation.scene.quasi_static.motion import largest_radii
 from derivation.scene.scene import OUTPUTS
@@ -93,12 +95,50 @@ class LargestContact:
     growth: Array
     bounds: dict[tuple[str, bool], Bound] = field(default_factory=dict, compare=False)
     """Bounds computed so far, by effect and whether the radii were scaled."""
+    errors: dict[tuple[str, ...], Array] = field(default_factory=dict, compare=False)
+    """Bounds on the change of each output computed so far, by the effects omitted together."""
+
+    @cached_property
+    def quasi_static(self) -> "LargestContact":
+        """The largest contact on the plate without inertia."""
+        return state_of(_quasi_static(self.law))
 
     @cached_property
     def by_inertia(self) -> Changes:
         """Logarithms of the factors by which plate inertia may change the results [1]."""
         [inertia] = [effect for effect in self.law.chosen if effect.dynamic]
-        return bound_of(state_of(_quasi_static(self.law)), inertia).results
+        return bound_of(self.quasi_static, inertia).results
+
+    @cached_property
+    def steepness(self) -> Changes:
+        """Factors on the changes of the results by derivation step 18 [1].
+
+        That step is for an elastic contact on a quasi-static plate. The force of a viscoelastic
+        contact depends more on its stiffness, and the sphere leaves it slowly, so that the weight
+        has more effect. Vibration of the plate can add to any change.
+        """
+        one: Numbers = 1.0
+        time: Numbers = 1.0
+        if any(effect.viscous for effect in self.law.chosen):
+            one = inverse_restitution(viscous_number(self.law.model))
+            time = one * one
+        if self.law.dynamic:
+            most, steep = VIBRATING
+            changed = columns.at_most_one(reduce(np.maximum, self.by_inertia))
+            moving = 1.0 + np.minimum(most, steep * changed)
+            one, time = moving * one, moving * time
+        return time, one, one, one, one
+
+    @cached_property
+    def vibration(self) -> tuple[Numbers, Numbers]:
+        """Factors of force and weight on the change of the restitution by vibration [1].
+
+        The force determines how much energy the vibration of the plate takes.
+        """
+        model = self.law.model
+        heavier = 1.0 + weight_work_ratio(model, plastic_depth(model, self.context))
+        least, most = least_restitution(model), columns.at_most_one(self.by_inertia[-1])
+        return np.maximum(RADIATED, REMAINING / least) * heavier * most, WEIGHT / least * most
 
 
 def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
@@ -112,9 +152,12 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
         stiff = law.only(lambda e: not (isinstance(e, PlateEffect) or e.solved or e.dynamic))
         wider = state_of(stiff, WIDER)
         # The sphere moves with the plate, as far as on a quasi-static one, during all contacts.
-        depth = np.fmax(wider.context.depth, state_of(_quasi_static(law)).context.depth)
+        still = state_of(_quasi_static(law))
+        depth = np.fmax(wider.context.depth, still.context.depth)
         context = replace(wider.context, depth=float(depth) if np.ndim(depth) == 0 else depth)
-        return replace(wider, law=law, context=context, bounds={})
+        moving = replace(wider, law=law, context=context, bounds={}, errors={})
+        vars(moving)["quasi_static"] = still  # known already
+        return moving
     constant = not (law.plate_effects or law.spherical or law.solved)
     count = FEW if constant else NODES[0]
     nodes = rule(count)
@@ -131,51 +174,29 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
         inner = Shape(*(x[..., :-1] for x in shape))
         elasticity = nodes.x * mapped(nodes.derivative, inner.additive) / inner.additive
         own = law.spherical or law.solved  # else the contact radius is Hertz's
-        equal = _prepended(0.0, radii * np.cbrt(shape.force) if own else radii)
-    fall, rise = np.maximum(0.0, -_least(elasticity)), np.maximum(0.0, _most(elasticity))
+        equal = columns.prepended(0.0, radii * np.cbrt(shape.force) if own else radii)
+    fall, rise = (
+        np.maximum(0.0, -columns.least(elasticity)),
+        np.maximum(0.0, columns.most(elasticity)),
+    )
     growth = np.ones_like(rise)
     if law.plastic:  # derivation step 31: S grows with xi, and a^2 with xi^3
         rise, growth = rise + 1.0, PLASTIC_GROWTH * growth
     if own:  # P is proportional to the cube of Hertz's radius, and dP = 2 E* a_H d delta/S.
         with np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
             swelling = inner.slope / (inner.additive * np.cbrt(inner.force) ** 2)
-            growth = growth * (1.0 + MARGIN * np.maximum(0.0, _most(1.0 / swelling) - 1.0))
+            growth = growth * (1.0 + MARGIN * np.maximum(0.0, columns.most(1.0 / swelling) - 1.0))
     depth = a * (a / law.model.R) * shape.depth[..., -1:]
-    context = BoundContext(equal, _number(depth), partial(_samples, law, upper))
-    slope = _prepended(1.0, shape.additive)
-    return LargestContact(law, _number(a), context, slope, MARGIN * fall, MARGIN * rise, growth)
+    context = BoundContext(equal, columns.number(depth), partial(_samples, law, upper))
+    slope = columns.prepended(1.0, shape.additive)
+    return LargestContact(
+        law, columns.number(a), context, slope, MARGIN * fall, MARGIN * rise, growth
+    )
 
 
 def _quasi_static(law: ContactLaw) -> ContactLaw:
     """Return the law on a plate without inertia."""
     return law.only(lambda e: not (e.dynamic or e.damps or e.stretches))
-
-
-def _at_most_one(change: Numbers) -> Numbers:
-    """Return a change of a result [1], at most 1; 1 if it is unknown."""
-    capped: Numbers = np.where(np.isfinite(change), np.minimum(change, 1.0), 1.0)
-    return capped
-
-
-def _prepended(first: float, values: Array) -> Array:
-    """Return the values of each scene with another one before them."""
-    start = np.full((*values.shape[:-1], 1), first)
-    return np.concatenate((start, values), axis=-1)
-
-
-def _number(x: Array) -> Numbers:
-    """Return the number of one scene as a float, those of many scenes as a column."""
-    return float(x.item()) if x.ndim == 1 else x
-
-
-def _most(values: Array) -> Array:
-    """Return the largest value of each scene; NumPy compares few long rows faster than many."""
-    return np.asarray(np.ascontiguousarray(values.T).max(axis=0))[..., None]
-
-
-def _least(values: Array) -> Array:
-    """Return the smallest value of each scene."""
-    return -_most(-values)
 
 
 def _samples(law: ContactLaw, top: Array) -> LawSamples:
@@ -213,7 +234,7 @@ def _bound(state: LargestContact, effect: Effect, scale: Numbers | None) -> Boun
     alone, and is computed on a quasi-static plate.
     """
     if effect.damps and state.law.dynamic:
-        still = state_of(_quasi_static(state.law))
+        still = state.quasi_static
         none = np.zeros_like(state.context.radii)
         bound = _bound(still, effect, scale)
         known = not np.all(np.isnan(still.a)) and np.all(np.isfinite(bound.up))
@@ -223,9 +244,9 @@ def _bound(state: LargestContact, effect: Effect, scale: Numbers | None) -> Boun
         bound = effect.bound(model, context)
     else:
         rows = range(len(context.radii))
-        bound = _together([effect.bound(model.take(i), context.row(i)) for i in rows])
+        bound = together([effect.bound(model.take(i), context.row(i)) for i in rows])
     if effect.viscous and state.law.dynamic:
-        most = _at_most_one(reduce(np.maximum, state.by_inertia))
+        most = columns.at_most_one(reduce(np.maximum, state.by_inertia))
         bound = bound._replace(results=on_vibrating_plate(bound.results, most))
     if effect.other_edge and state.law.dynamic:
         # Waves return from the edge. Both edges are compared with their quasi-static plates.
@@ -238,22 +259,6 @@ def _bound(state: LargestContact, effect: Effect, scale: Numbers | None) -> Boun
     return bound
 
 
-def _together(bounds: Sequence[Bound]) -> Bound:
-    """Combine the bounds of single scenes to those of many."""
-    low, up = (np.array([bound[i] for bound in bounds]) for i in (0, 1))
-    energy = _column(bound.energy for bound in bounds)
-    radius = _column(bound.radius for bound in bounds)
-    time, depth, force, width, speed = (
-        _column(bound.results[i] for bound in bounds) for i in range(len(OUTPUTS))
-    )
-    return Bound(low, up, energy, radius, (time, depth, force, width, speed))
-
-
-def _column(numbers: Iterable[Numbers]) -> Array:
-    """Return numbers as a column."""
-    return np.array([np.asarray(number).item() for number in numbers])[:, None]
-
-
 def error_of(state: LargestContact, effects: Sequence[Effect], outputs: Sequence[str]) -> float:
     """Return the bound on the change of the worst output if effects are omitted together."""
     return float(errors_of(state, effects, outputs).item())
@@ -261,25 +266,39 @@ def error_of(state: LargestContact, effects: Sequence[Effect], outputs: Sequence
 
 def errors_of(state: LargestContact, effects: Sequence[Effect], outputs: Sequence[str]) -> Array:
     """Return the bounds of `error_of` for one scene, or for many as a column."""
+    return _worst(each_error_of(state, effects), outputs)
+
+
+def each_error_of(state: LargestContact, effects: Sequence[Effect]) -> Array:
+    """Return the bounds on the change of each output, in the order of `OUTPUTS`."""
+    names = tuple(effect.name for effect in effects)
+    if names not in state.errors:
+        state.errors[names] = _each_error(state, effects)
+    return state.errors[names]
+
+
+def _each_error(state: LargestContact, effects: Sequence[Effect]) -> Array:
+    """Compute the bounds on the change of each output."""
+    shape = len(OUTPUTS), *state.growth.shape
     if not effects:
-        return np.zeros_like(state.growth)
+        return np.zeros(shape)
     lost = np.isnan(state.a)
     if lost.all():
-        return np.full_like(state.growth, np.inf)
+        return np.full(shape, np.inf)
     elastic = [e for e in effects if np.any(e.softness(state.law.model))]
     scale = np.exp(bound_of(state, elastic[0]).radius) if elastic else None
     bounds = [bound_of(state, e, None if e in elastic else scale) for e in effects]
     # Half-space effects multiply; for the others the product is an upper bound of the sum.
     with np.errstate(over="ignore"):
         up = np.asarray(math.prod(1.0 + bound.up for bound in bounds))
-    together = Bound(
+    whole = Bound(
         low=_sum(bound.low for bound in bounds),
         up=up - 1.0,
         energy=_sum(bound.energy for bound in bounds),
         radius=_sum(bound.radius for bound in bounds),
         results=_sums(bound.results for bound in bounds),
     )
-    return np.where(lost, np.inf, _worst(state, together, outputs))
+    return np.where(lost, np.inf, _each_change(state, whole))
 
 
 def _sum(numbers: Iterable[Numbers]) -> Any:
@@ -293,12 +312,17 @@ def _sums(rows: Iterable[Changes]) -> Changes:
     return time, depth, force, radius, speed
 
 
-def _worst(state: LargestContact, bound: Bound, outputs: Sequence[str]) -> Array:
-    """Return the error of the worst output, by derivation step 18 and by direct changes."""
+def _worst(errors: Array, outputs: Sequence[str]) -> Array:
+    """Return the largest of the errors of some outputs."""
+    return np.asarray(errors[[OUTPUTS.index(name) for name in outputs]].max(axis=0))
+
+
+def _each_change(state: LargestContact, bound: Bound) -> Array:
+    """Return the error of each output, by derivation step 18 and by direct changes."""
     low, up, energy, radius, results = bound
     with np.errstate(all="ignore"):  # overflow means that there is no bound
-        below, above = _most(low / state.slope), _most(up / state.slope)
-        known = np.isfinite(below) & np.isfinite(above) & (_least(state.slope) > 0.0)
+        below, above = columns.most(low / state.slope), columns.most(up / state.slope)
+        known = np.isfinite(below) & np.isfinite(above) & (columns.least(state.slope) > 0.0)
         below, above = np.where(known, below, 0.0), np.where(known, above, 0.0)
         if np.any(energy):
             # The work of the weight depends on the indentation of the whole law.
@@ -310,46 +334,21 @@ def _worst(state: LargestContact, bound: Bound, outputs: Sequence[str]) -> Array
         # The bound of a viscoelastic contact by this law is increased to cover the whole law.
         wider = (1.0 + largest) ** 2
         others = (*change, np.zeros_like(largest))
-        logs = [x * np.log1p(y) for x, y in zip(_steepness(state), others, strict=True)]
+        logs = [x * np.log1p(y) for x, y in zip(state.steepness, others, strict=True)]
         logs = [x + wider * y for x, y in zip(logs, results, strict=True)]
         kept = [bound_of(state, e).results[-1] for e in state.law.chosen if e.viscous]
         if kept:
             # Without a change of the law this bound does not change, even if it is infinite.
             logs[-1] = logs[-1] + np.where(wider > 1.0, (wider - 1.0) * _sum(kept), 0.0)
         if state.law.dynamic:
-            # The force determines how much energy the vibration of the plate takes.
-            model = state.law.model
-            heavier = 1.0 + weight_work_ratio(model, plastic_depth(model, state.context))
-            least, most = least_restitution(model), _at_most_one(state.by_inertia[-1])
-            taken = np.maximum(RADIATED, REMAINING / least) * heavier * most
-            logs[-1] = logs[-1] + taken * np.log1p(largest) + WEIGHT / least * most * energy
+            taken, pressed = state.vibration
+            logs[-1] = logs[-1] + taken * np.log1p(largest) + pressed * energy
         if state.law.plastic:
             logs[-1] = logs[-1] + _plastic_sensitivity(state) * np.log1p(largest)
         # Derivation step 18 is for Hertz's radius of the force; the contact radius may grow faster.
         logs[3] = logs[3] + (state.growth - 1.0) * np.log1p(change[3]) + state.growth * radius
-        errors = [np.expm1(log) for name, log in zip(OUTPUTS, logs, strict=True) if name in outputs]
-        worst = np.maximum.reduce(errors) + 0.0 * largest
-        return np.where(known & np.isfinite(change[0]) & ~np.isnan(worst), worst, np.inf)
-
-
-def _steepness(state: LargestContact) -> Changes:
-    """Return the factors on the changes of the results by derivation step 18 [1].
-
-    That step is for an elastic contact on a quasi-static plate. The force of a viscoelastic contact
-    depends more on its stiffness, and the sphere leaves it slowly, so that the weight has more
-    effect. Vibration of the plate can add to any change.
-    """
-    one: Numbers = 1.0
-    time: Numbers = 1.0
-    if any(effect.viscous for effect in state.law.chosen):
-        one = inverse_restitution(viscous_number(state.law.model))
-        time = one * one
-    if state.law.dynamic:
-        most, steep = VIBRATING
-        changed = _at_most_one(reduce(np.maximum, state.by_inertia))
-        moving = 1.0 + np.minimum(most, steep * changed)
-        one, time = moving * one, moving * time
-    return time, one, one, one, one
+        errors = np.array(np.broadcast_arrays(*map(np.expm1, logs))) + 0.0 * largest
+        return np.where(known & np.isfinite(change[0]) & ~np.isnan(errors), errors, np.inf)
 
 
 def _plastic_sensitivity(state: LargestContact) -> float:
@@ -379,18 +378,18 @@ def sizes_of(state: LargestContact, effect: Effect, outputs: Sequence[str]) -> A
     bound = bound_of(state, effect)
     with np.errstate(all="ignore"):
         part = np.maximum(bound.low, bound.up) / np.abs(state.slope)
-    most = _most(np.where(np.isfinite(part), part, 0.0))
+    most = columns.most(np.where(np.isfinite(part), part, 0.0))
     return np.where(
         np.isfinite(error), error, 10.0 + np.maximum(most, 0.0) + bound.energy + bound.results[-1]
     )
 
 
-def change_of(state: LargestContact, effects: Sequence[Effect], outputs: Sequence[str]) -> float:
-    """Return the bound on the change if an included effect is omitted, with the parts after it."""
+def each_change_of(state: LargestContact, effects: Sequence[Effect]) -> Array:
+    """Return the bounds on the changes if an included effect is omitted, with its parts."""
     effect = effects[0]
     if effect.always_included or np.isnan(state.a):
-        return math.inf
+        return np.full((len(OUTPUTS), 1), np.inf)
     if effect.dynamic:
-        return error_of(state_of(_quasi_static(state.law)), effects, outputs)
+        return each_error_of(state.quasi_static, effects)
     bound = bound_of(state, effect)
-    return float(_worst(state, bound._replace(low=bound.up, up=bound.low), outputs).item())
+    return _each_change(state, bound._replace(low=bound.up, up=bound.low))

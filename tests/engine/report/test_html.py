@@ -214,7 +214,7 @@ def test_sections_of_the_appendix_have_letters() -> None:
 def test_figures_are_reproducible_and_have_unique_ids() -> None:
     result = simulate(load(reporting.PAPER))
     first, second = (
-        figure_file(figures(reporting.paper_case(), result, 1.0)["figure2"], ".svg")
+        figure_file(figures(reporting.paper_case(), result, 1.0)["figure2"](), ".svg")
         for _ in range(2)
     )
     assert first == second

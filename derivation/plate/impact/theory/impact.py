@@ -9,8 +9,9 @@ from functools import cache
 
 import sympy as sp
 
+from derivation.engine.cache import in_file
 from derivation.engine.formula.proof import Proof, prove
-from derivation.plate.contact.theory.hertz import contact_radius
+from derivation.plate.contact.theory.hertz import SOURCES, contact_radius
 from derivation.plate.contact.theory.reversion import force_formulas
 from derivation.plate.vocabulary import D, Formula, R, a, delta, delta_0, h, m, t, u_t, v0, xi_k
 
@@ -187,7 +188,7 @@ def prove_contact_time(shown: int, integrand: sp.Expr, stated: sp.Expr, work: sp
     )
 
 
-@cache
+@in_file((*SOURCES, "plate/impact/theory"), Formula, Proof)  # kernels need it at their import
 def hertz_time() -> Formula:
     """Return the contact time on the half-space over delta_max/v0: 2 int_0^1 dx/sqrt(1 - x^(5/2)).
 

@@ -18,7 +18,9 @@ from typing import NamedTuple
 
 import sympy as sp
 
+from derivation.engine.cache import in_file
 from derivation.engine.formula.proof import Proof, lower_bessel, prove
+from derivation.plate.contact.theory.hertz import SOURCES
 from derivation.plate.modes.theory.influence import PLANE_STRAIN_MODULUS
 from derivation.plate.vocabulary import Formula, R, b, h, j_n, lam, m, mu, phi, r, rho, v0
 
@@ -154,6 +156,7 @@ def plate_times() -> tuple[Formula, Formula]:
     )
 
 
+@in_file((*SOURCES, "plate/waves/theory"), Formula, Proof)  # kernels need it at their import
 def plate_motion() -> tuple[Formula, ...]:
     """Return the formulas of the step."""
     return zener_number(), *plate_times()

@@ -102,6 +102,14 @@ class EndlessError(IncompleteError):
 class StiffUnloadingError(IncompleteError):
     """The error of a yielded contact that unloads more stiffly than short plate modes respond."""
 
+    def of_chosen_modes(self) -> "StiffUnloadingError":
+        """Return the error if the scene gives the number of modes.
+
+        An automatic number is often that of the modes for which there is a solution.
+        """
+        others = str(self.remedy).removeprefix("try ")
+        return StiffUnloadingError(self.why, f'try inertia.modes = "auto", or {others}')
+
 
 class ToleranceError(SceneError):
     """The error of a tolerance that the results do not meet.

@@ -178,9 +178,10 @@ def _stiff_unloading(problem: DynamicProblem, time: float) -> StiffUnloadingErro
     fewer = modes.first.size // 2
     remedy = "reduce impact.speed, or set effects.plasticity = false for an elastic contact"
     if fewer >= FEWEST_MODES:
-        remedy = f"set inertia.modes to at most {fewer}"
+        # Fewer may fail too, or be too few for a tolerance.
+        remedy = f"try fewer modes without a tolerance, such as inertia.modes = {fewer}"
     if modes.first.size < modes.omega.size:
-        remedy += ', or inertia.branches to "A0"'
+        remedy += ', or inertia.branches = "A0"'
     return StiffUnloadingError(
         f"the contact at {time:.6g} s has no solution, because the yielded contact unloads more "
         "stiffly than the short modes of the plate respond",

@@ -206,7 +206,7 @@ def test_too_many_chosen_modes_lead_to_the_automatic_number() -> None:
                   "poissons_ratio": 0.3, "density": 839.0, "yield_stress": 1.08e7},
         "impact": {"speed": 0.838},
     }  # fmt: skip
-    with pytest.raises(SceneError, match='try inertia.modes = "auto", or fewer') as rejected:
+    with pytest.raises(SceneError, match=r'try inertia\.modes = "auto", or fewer') as rejected:
         simulate(read(scene | {"inertia": {"modes": 63}}))
     fewer = int(str(rejected.value).rpartition(" = ")[2])
     with pytest.raises(SceneError, match="unloads more stiffly"):

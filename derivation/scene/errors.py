@@ -35,7 +35,7 @@ class Slower:
     others: str
 
     def __str__(self) -> str:
-        enough = f" ({self.speed:.2g} m/s is low enough)" if self.speed else ""
+        enough = f" ({self.speed:.2g} m/s is low enough for this limit)" if self.speed else ""
         return f"reduce impact.speed{enough}{self.others}"
 
 

@@ -34,6 +34,9 @@ WIDE = 1.01
 modes."""
 HEAVY = 10.0
 """Sphere mass over mass of the first mode above which the plate acts as a spring."""
+INSTANT = 1e-9
+"""Retardation time over the unit of time below which a contact without a solution has none because
+rounding hides how the face lags."""
 SHARP = 0.05
 """Slope of the gap over that without vibration below which the contact is no longer circular."""
 
@@ -149,6 +152,8 @@ def no_solution(
         f"of {deflection:.3g} m"
     )
     remedy: str | Slower = "reduce impact.speed, or use a smaller sphere or a thicker plate"
+    if 0.0 < problem.retardation_time < INSTANT:
+        remedy = "set effects.viscosity = false, because the retardation time is extremely short"
     beyond = np.nextafter(problem.contact.top, 0.0) / problem.a
     if radius > 0.99 * beyond:
         why = (

@@ -35,7 +35,7 @@ class Slower:
     others: str
 
     def __str__(self) -> str:
-        enough = f" ({self.speed:.2g} m/s is low enough)" if self.speed else ""
+        enough = f" ({self.speed:.2g} m/s is low enough for this limit)" if self.speed else ""
         return f"reduce impact.speed{enough}{self.others}"
 
 
@@ -101,6 +101,14 @@ class EndlessError(IncompleteError):
 
 class StiffUnloadingError(IncompleteError):
     """The error of a yielded contact that unloads more stiffly than short plate modes respond."""
+
+    def of_chosen_modes(self) -> "StiffUnloadingError":
+        """Return the error if the scene gives the number of modes.
+
+        An automatic number is often that of the modes for which there is a solution.
+        """
+        others = str(self.remedy).removeprefix("try ")
+        return StiffUnloadingError(self.why, f'try inertia.modes = "auto", or {others}')
 
 
 class ToleranceError(SceneError):

@@ -190,3 +190,18 @@ def test_sphere_and_recovering_face_meet_at_the_speed_that_the_force_shows(time:
     expected = 2.0 * viscosity * float(begun.contact_radius[0]) * speed
     assert float(begun.force[0]) == pytest.approx(expected, rel=0.15)
     assert not any("grazing" in text for text in result.warnings)
+
+
+def test_contact_with_an_extremely_short_retardation_is_made_elastic() -> None:
+    """An earlier message recommended a lower speed, at which there is no solution either."""
+    scene: dict[str, Any] = {
+        "sphere": {"radius": 0.005, "material": "steel"},
+        "plate": {"radius": 0.05, "thickness": 0.005, "material": "glass",
+                  "retardation_time": 1e-20},
+        "impact": {"speed": 1.0},
+        "effects": {"viscosity": True},
+    }  # fmt: skip
+    for speed in (1.0, 0.01):
+        with pytest.raises(SceneError, match=r"; set effects\.viscosity = false, because"):
+            simulate(read(scene | {"impact": {"speed": speed}}))
+    assert simulate(read(scene | {"effects": {"viscosity": False}})).complete

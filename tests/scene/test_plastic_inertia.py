@@ -152,7 +152,8 @@ def test_message_on_stiff_unloading_does_not_mention_the_plate_curvature() -> No
     }  # fmt: skip
     with pytest.raises(SceneError, match="unloads more stiffly") as rejected:
         simulate(read(scene))
-    assert 'set inertia.modes to at most 30, or inertia.branches to "A0"' in str(rejected.value)
+    remedy = "fewer modes without a tolerance, such as inertia.modes = 30"
+    assert str(rejected.value).endswith(f'{remedy}, or inertia.branches = "A0"')
     mended = simulate(read(scene | {"inertia": {"modes": 60, "branches": "A0"}}))
     few = simulate(read(scene | {"inertia": {"modes": 17, "branches": "A0"}}))
     assert mended.complete
@@ -166,7 +167,7 @@ def test_message_on_stiff_unloading_names_only_numbers_of_modes_that_are_accepte
     """An earlier message recommended a single mode, which is not accepted."""
     law = ContactLaw(plastic_model(0), PAPER | {"inertia", "plasticity"})
     error = contact_errors._stiff_unloading(problem_of(law, modes), 0.0)
-    found = re.search(r"inertia\.modes to at most (\d+)", str(error))
+    found = re.search(r"such as inertia\.modes = (\d+)", str(error))
     assert bool(found) == (modes >= 4)
     if found:
         assert Inertia(modes=int(found[1])).modes == modes // 2
@@ -190,11 +191,48 @@ def test_plate_has_no_more_modes_than_a_stiff_unloading_allows() -> None:
     with pytest.raises(SceneError, match="unloads more stiffly") as rejected:
         with_modes(2 * count + 1)
     # An earlier message also recommended the branch A0, which was the only one.
-    assert str(rejected.value).endswith(f"set inertia.modes to at most {count}")
+    assert str(rejected.value).endswith(f"without a tolerance, such as inertia.modes = {count}")
     finer = with_modes(3 * count // 2)
     for name in ("contact_time", "max_indentation", "max_force", "restitution"):
         before, after = getattr(result, name), getattr(finer, name)
         assert abs(before / after - 1.0) <= min(result.bound_of(name), 0.01)
+
+
+def test_too_many_chosen_modes_lead_to_the_automatic_number() -> None:
+    """An earlier message named a number of modes only, with which there is no solution either."""
+    scene = {
+        "sphere": {"radius": 0.0202, "density": 4290.0},
+        "plate": {"radius": 0.0296, "thickness": 0.0137, "youngs_modulus": 2.14e10,
+                  "poissons_ratio": 0.3, "density": 839.0, "yield_stress": 1.08e7},
+        "impact": {"speed": 0.838},
+    }  # fmt: skip
+    with pytest.raises(SceneError, match=r'try inertia\.modes = "auto", or fewer') as rejected:
+        simulate(read(scene | {"inertia": {"modes": 63}}))
+    fewer = int(str(rejected.value).rpartition(" = ")[2])
+    with pytest.raises(SceneError, match="unloads more stiffly"):
+        simulate(read(scene | {"inertia": {"modes": fewer}}))
+    assert simulate(read(scene)).accuracy.bound < 1e-3
+
+
+def test_fewer_modes_after_a_stiff_unloading_are_tried_without_a_tolerance() -> None:
+    """An earlier message named a number of modes that a tolerance does not allow."""
+    scene = {
+        "sphere": {"radius": 0.002263, "density": 1432.0},
+        "plate": {"radius": 0.009019, "thickness": 2.769e-4, "youngs_modulus": 2.933e10,
+                  "poissons_ratio": 0.2, "density": 1389.0, "edge": "simply-supported",
+                  "yield_stress": 5.847e6},
+        "impact": {"speed": 6.744},
+        "inertia": {"branches": "A0"},
+    }  # fmt: skip
+    with pytest.raises(SceneError, match="fewer modes without a tolerance") as rejected:
+        simulate(read(scene | {"accuracy": {"rtol": 0.01}}))
+    fewer = {"branches": "A0", "modes": int(str(rejected.value).rpartition(" = ")[2])}
+    with pytest.raises(SceneError, match="modes with a tolerance"):
+        simulate(read(scene | {"accuracy": {"rtol": 0.01}, "inertia": fewer}))
+    with pytest.raises(SceneError, match="unloads more stiffly") as again:
+        simulate(read(scene | {"inertia": fewer}))
+    fewer |= {"modes": int(str(again.value).rpartition(" = ")[2])}
+    assert simulate(read(scene | {"inertia": fewer})).complete
 
 
 def test_stiff_unloading_with_the_pointwise_coupling_has_no_error_estimate() -> None:

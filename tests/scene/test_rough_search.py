@@ -114,7 +114,7 @@ def test_an_error_of_the_measurement_names_the_speed_of_the_measurement() -> Non
     with pytest.raises(SceneError, match=r"^measured: .*reduce measured\.tested_at") as error:
         simulate(read(wide | {"measured": measured | {"tested_at": 30.0}}))
     assert "impact.speed" not in str(error.value)
-    enough = re.search(r"\((\S+) m/s is low enough\)", str(error.value))
+    enough = re.search(r"\((\S+) m/s is low enough for this limit\)", str(error.value))
     assert enough
     slower = wide | {"impact": {"speed": float(enough[1])}}
     assert Measurement(slower, "yield_stress", 0.5).to(0.1).simulated(None).restitution > 0.0
@@ -150,7 +150,7 @@ def test_recommended_speed_of_the_measurement_is_low_enough_for_its_restitution(
     scene = GOLF | {"impact": {"speed": 1.0}, "measured": on_plate | {"tested_at": 30.0}}
     with pytest.raises(SceneError, match=r"measured\.tested_at") as error:
         simulate(read(scene))
-    enough = re.search(r"\((\S+) m/s is low enough\)", str(error.value))
+    enough = re.search(r"\((\S+) m/s is low enough for this limit\)", str(error.value))
     assert enough
     speed = float(enough[1])
     scene["measured"]["tested_at"] = speed

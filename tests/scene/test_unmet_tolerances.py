@@ -78,3 +78,26 @@ def test_one_run_beyond_the_limits_is_made_if_the_tolerance_is_near(
             simulate(scene, rtol=rtol)
     assert len(counts) == runs
     waves.impact.cache_clear()
+
+
+def test_more_modes_are_tried_if_the_first_contact_may_split() -> None:
+    """An earlier message recommended a smaller tolerance, which was rejected with the first one."""
+    scene: dict[str, Any] = {
+        "sphere": {
+            "radius": 0.0199, "density": 991.0, "youngs_modulus": 9.81e9, "poissons_ratio": 0.45,
+            "retardation_time": 6.644e-4,
+        },
+        "plate": {
+            "radius": 0.1747, "thickness": 0.0378, "youngs_modulus": 8.65e10,
+            "poissons_ratio": 0.0, "density": 3160.0, "retardation_time": 7.897e-6,
+        },
+        "impact": {"speed": 0.24},
+        "accuracy": {"rtol": 0.036},
+    }  # fmt: skip
+    few = {"inertia": {"modes": 13}}
+    with pytest.raises(SceneError, match=r"may split .*; try more inertia\.modes, or remove"):
+        simulate(read(scene | few))
+    with pytest.raises(SceneError, match="rtol: expected at least about"):
+        simulate(read(scene | few | {"accuracy": {"rtol": 0.018}}))
+    assert simulate(read(scene | {"inertia": {"modes": 100}})).accuracy.bound < 0.036
+    assert simulate(read(scene)).accuracy.bound < 0.036

@@ -34,6 +34,9 @@ WIDE = 1.01
 modes."""
 HEAVY = 10.0
 """Sphere mass over mass of the first mode above which the plate acts as a spring."""
+INSTANT = 1e-9
+"""Retardation time over the unit of time below which a contact without a solution has none because
+rounding hides how the face lags."""
 SHARP = 0.05
 """Slope of the gap over that without vibration below which the contact is no longer circular."""
 
@@ -149,6 +152,8 @@ def no_solution(
         f"of {deflection:.3g} m"
     )
     remedy: str | Slower = "reduce impact.speed, or use a smaller sphere or a thicker plate"
+    if 0.0 < problem.retardation_time < INSTANT:
+        remedy = "set effects.viscosity = false, because the retardation time is extremely short"
     beyond = np.nextafter(problem.contact.top, 0.0) / problem.a
     if radius > 0.99 * beyond:
         why = (
@@ -178,9 +183,10 @@ def _stiff_unloading(problem: DynamicProblem, time: float) -> StiffUnloadingErro
     fewer = modes.first.size // 2
     remedy = "reduce impact.speed, or set effects.plasticity = false for an elastic contact"
     if fewer >= FEWEST_MODES:
-        remedy = f"set inertia.modes to at most {fewer}"
+        # Fewer may fail too, or be too few for a tolerance.
+        remedy = f"try fewer modes without a tolerance, such as inertia.modes = {fewer}"
     if modes.first.size < modes.omega.size:
-        remedy += ', or inertia.branches to "A0"'
+        remedy += ', or inertia.branches = "A0"'
     return StiffUnloadingError(
         f"the contact at {time:.6g} s has no solution, because the yielded contact unloads more "
         "stiffly than the short modes of the plate respond",

@@ -37,6 +37,7 @@ from derivation.scene.dynamic.stretched_shapes import with_enough_shapes, with_s
 from derivation.scene.dynamic.time_in_contact import FEWER, check_deflected, check_long, nodes_for
 from derivation.scene.dynamic.wave_motion import DynamicImpact
 from derivation.scene.dynamic.wave_problem import problem_of
+from derivation.scene.errors import StiffUnloadingError
 from derivation.scene.scene import OUTPUTS
 
 
@@ -87,9 +88,12 @@ def impact(
         law, coarse = widened(law, budget)
     if math.isinf(need) and (few := not_usable(law, outputs)):
         return few
-    if law.model.inertia.branches == "auto" and not law.viscous:
-        law, rough = _branched(law, goal, reach, budget)
-    run = Refinement(law, goal, reach, budget).impact(rough, coarse)
+    try:
+        if law.model.inertia.branches == "auto" and not law.viscous:
+            law, rough = _branched(law, goal, reach, budget)
+        run = Refinement(law, goal, reach, budget).impact(rough, coarse)
+    except StiffUnloadingError as error:
+        raise (error.of_chosen_modes() if law.model.inertia.modes else error) from None
     while law.model.inertia.infinite_plate and wave_returned(run):
         law = wider(law, first, run)
         run = Refinement(law, goal, reach, budget).impact()

@@ -102,8 +102,9 @@ def solve_selected(
     # An incomplete impact has no bound; it is returned and marked as incomplete.
     if within and rtol is not None and rtol < accuracy.bound and not math.isnan(results[-1]):
         timed = moving is not None and "contact_time" in selected.outputs
-        if _may_jump(selected, moving) or (moving and timed and moving.inertia.jump > rtol):
-            raise duration_may_jump(rtol)
+        jumps = bool(moving and timed and moving.inertia.jump > rtol)
+        if jumps or _may_jump(selected, moving):
+            raise duration_may_jump(rtol, law, by_effects=not jumps)
         before = replace(accuracy, effects=Part(selected.error, _basis(selected)))
         growth = (
             largest_growth(growth_of(moving), selected.outputs) if before.bound <= rtol else 1.0

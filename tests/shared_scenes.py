@@ -32,7 +32,7 @@ inertia = true
 modes = 8
 """
 """A scene file with a sphere that touches the plate twice."""
-_MORE = "inertia", "damping", "plasticity"
+_MORE = "inertia", "damping", "plasticity", "stretching"
 ALL = frozenset(name for name, e in BY_NAME.items() if e.selectable and name not in _MORE)
 """Every effect of a quasi-static, elastic law; the plate of `model` is simply supported."""
 

@@ -332,7 +332,7 @@ def _infinite_plate_radius(model: Model) -> float:
 
 
 def _inertia(scene: Scene) -> InertiaSettings:
-    wanted, stretching = scene.inertia, scene.effects.stretching
+    wanted, stretching = scene.inertia, scene.effects.stretches
     if wanted is None:
         return InertiaSettings(stretching=stretching)
     modes = 0 if wanted.modes == "auto" else wanted.modes

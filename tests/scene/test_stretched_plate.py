@@ -19,9 +19,8 @@ from tests.scene.test_materials import SCENES as MATERIALS
 NAMES = (
     "contact_time", "max_indentation", "max_force", "max_contact_radius", "restitution",
 )  # fmt: skip
-WITNESS = {"contact_time": 0.011, "max_indentation": 6e-3, "max_force": 0.04, "restitution": 0.02}
-"""Errors of the independent simulation, which has few modes: without stretching it differs by up to
-1.1, 0.5, 3 and 2 % from the program, and by more in the force of a later contact."""
+OWN = 5e-3
+"""Error of the independent simulation, in addition to that without stretching [1]."""
 HAIL = MATERIALS["hail of 25 mm on a bonnet, 20 m/s"]
 STRETCHED: dict[str, Any] = {"effects": {"inertia": True, "stretching": True}}
 SMALL = {
@@ -34,16 +33,23 @@ SMALL = {
 @pytest.mark.one_version
 @pytest.mark.parametrize("name", SCENES)
 def test_impact_is_that_of_an_independent_simulation(name: str) -> None:
-    """Only its frequencies and masses of modes are those of the program."""
+    """Only its frequencies and masses of modes are those of the program.
+
+    It has few modes, so that without stretching it differs by up to 12 % in the force of a later
+    contact, and by about 1 % otherwise.
+    """
     stretched, linear = moving(name, stretching=True), moving(name)
     before, after = simulations(name, thick=True)
     assert stretched.complete
     assert stretched.dynamics is not None
     law = stretched.effects.law
     errors = stretching_error(law, stretched.dynamics, deflections_of(law, stretched.dynamics))
-    for key, own in WITNESS.items():
-        difference = abs(getattr(stretched, key) / after[key] - 1.0)
-        assert difference <= stretched.accuracy.bound + errors[key] + own, key
+    for key in ("contact_time", "max_indentation", "max_force", "restitution"):
+        own, off = (
+            abs(getattr(result, key) / other[key] - 1.0)
+            for result, other in ((linear, before), (stretched, after))
+        )
+        assert off <= stretched.accuracy.bound + errors[key] + own + OWN, key
     # Without stretching the indentation is as much larger in both simulations.
     deeper = linear.max_indentation / stretched.max_indentation
     assert deeper == pytest.approx(before["max_indentation"] / after["max_indentation"], abs=1e-3)

@@ -71,3 +71,8 @@ class Effects(Table):
     def quasi_static(self) -> bool:
         """Whether the inertia of the plate is disabled."""
         return self.inertia is False
+
+    @property
+    def stretches(self) -> bool:
+        """Whether the middle plane of the plate stretches."""
+        return self.stretching

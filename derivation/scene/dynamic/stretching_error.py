@@ -43,9 +43,11 @@ join it with the next one: half of the smallest one that did; and the same over 
 splits or joins it: the smallest one that did was 1/1.9 of it."""
 
 
-ROTATION, IN_PLANE = 1.0, 4.0
+ROTATION, IN_PLANE = 1.0, 10.0
 """Relative error of the forces of stretching over the mean square of the slope, and over H/(c_p T)
-with the speed c_p of pressure waves in the plane and the duration T of the first contact."""
+with the speed c_p of pressure waves in the plane and the duration T of the first contact. In 46
+random impacts on von Karman plates whose middle plane has inertia, restitution and largest values
+changed by at most 0.4 of the errors by the latter, for stiffenings from 1e-4 to 1."""
 
 
 class Deflections(NamedTuple):
@@ -76,43 +78,26 @@ def deflections_of(law: ContactLaw, motion: "DynamicImpact") -> Deflections:
 def stretching_error(
     law: ContactLaw, motion: "DynamicImpact", deflections: Deflections
 ) -> dict[str, float]:
-    """Return the relative error of each result by stretching, or by its neglect.
+    """Return the relative error of each result by the neglect of stretching.
+
+    If the plate stretches, only a part of a stiffening of at most 1 is neglected: the relative
+    error of the forces of stretching.
 
     Later contacts, and with them the restitution, depend on the phase of the plate's vibration, and
     change more. If the first contact splits or joins the next one, its duration may change by more,
     see `jump_warnings`.
     """
-    if law.stretches:
-        return _remaining_errors(law, motion, deflections)
     size = float(stretching(law.model, deflections.largest))
     sizes = np.asarray(stretching(law.model, deflections.so_far), dtype=np.float64)
+    if law.stretches:
+        part = force_error(law, motion, deflections)
+        size, sizes = part * min(1.0, size), part * np.minimum(1.0, sizes)
     rebound = abs(motion.restitution) if motion.inertia.complete else 1.0  # else unknown
     return {
         "contact_time": max(TIME * float(sizes[-1]), earlier_end(motion.histories[0][P], sizes)),
         "max_indentation": DEPTH * size,
         "max_force": _higher([rows[P] for rows in motion.histories], sizes, FORCE * size),
         "max_contact_radius": _higher([rows[A] for rows in motion.histories], sizes, RADIUS * size),
-        "restitution": SPEED * size / max(rebound, 1e-6),
-    }
-
-
-def _remaining_errors(
-    law: ContactLaw, motion: "DynamicImpact", deflections: Deflections
-) -> dict[str, float]:
-    """Return the relative errors with stretching: by in-plane inertia and large slopes.
-
-    They are the errors by its neglect, for a stiffening of at most 1, times the relative error of
-    the forces of stretching.
-    """
-    size = min(1.0, float(stretching(law.model, deflections.largest)))
-    size *= force_error(law, motion, deflections)
-    rebound = abs(motion.restitution) if motion.inertia.complete else 1.0  # else unknown
-    one = len(motion.histories) == 1
-    return {
-        "contact_time": TIME * size,
-        "max_indentation": DEPTH * size,
-        "max_force": (PEAK if one else FORCE) * size,
-        "max_contact_radius": (PEAK if one else RADIUS) * size,
         "restitution": SPEED * size / max(rebound, 1e-6),
     }
 

@@ -114,7 +114,8 @@ def rows_of(problem: DynamicProblem, touching: ContactRun, t: Array) -> Array:
 def _flights(problem: DynamicProblem, touching: ContactRun, t: Array, radius: float) -> Array:
     """Return velocity, displacement, plate deflection and energy at times after the separation.
 
-    Times before it belong to the last part of a contact, in which the force is very small.
+    Times before it belong to the last part of a contact, in which the force is very small. If the
+    plate stretches, the energy does not include that of a viscoelastic face that recovers.
     """
     flights = problem.flights(touching.after, t, radius)
     if problem.middle_plane is None:

@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from derivation.engine.text import aligned, paragraph, wording
-from derivation.scene.effects import BY_NAME
 from derivation.scene.input.keys import written
 from derivation.scene.quantity import common_prefix, counted, rounded_up, up_to
 from derivation.scene.result import UNITS
@@ -146,12 +145,9 @@ def summary(store: Store, computed: int, sensitivities: Sensitivities | None) ->
         _add_reasons(reasons, store, start, status, reason)
     ranges = {name: (low[name], high[name]) for name in UNITS if low[name] <= high[name]}
     warnings = tuple(reason.in_words() for reason in reasons.values())
-    size, effects = store.study.plan.size, store.study.scene.effects
-    disabled = tuple(
-        name
-        for name in BY_NAME
-        if getattr(effects, name, None) is False and f"effects.{name}" not in store.study.plan.keys
-    )
+    size, keys = store.study.plan.size, store.study.plan.keys
+    effects = store.study.scene.effects.disabled
+    disabled = tuple(name for name in effects if f"effects.{name}" not in keys)
     return Summary(
         size, computed, dict(sorted(counts.items())), ranges, bound, model_error, warnings, warned,
         sensitivities, outputs_of(store.study.scene), disabled,

@@ -16,6 +16,7 @@ from generated import stretching_kernels
 from tests.scene.stretching_scenes import SCENES, moving, simulations
 from tests.scene.test_materials import SCENES as MATERIALS
 
+pytestmark = pytest.mark.one_version
 NAMES = (
     "contact_time", "max_indentation", "max_force", "max_contact_radius", "restitution",
 )  # fmt: skip
@@ -30,7 +31,6 @@ SMALL = {
 }
 
 
-@pytest.mark.one_version
 @pytest.mark.parametrize("name", SCENES)
 def test_impact_is_that_of_an_independent_simulation(name: str) -> None:
     """Only its frequencies and masses of modes are those of the program.

@@ -73,6 +73,13 @@ class Effects(Table):
         return self.inertia is False
 
     @property
+    def disabled(self) -> tuple[str, ...]:
+        """Names of the effects that the selection may include, but that are disabled."""
+        fields = type(self).model_fields.items()
+        names = (name for name, field in fields if field.default == "auto")
+        return tuple(name for name in names if getattr(self, name) is False)
+
+    @property
     def stretches(self) -> bool:
         """Whether the middle plane of the plate stretches."""
         return self.stretching

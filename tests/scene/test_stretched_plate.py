@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from derivation.scene import SceneError, explain, read, simulate
+from derivation.scene import Result, SceneError, explain, read, simulate
 from derivation.scene.dynamic.middle_plane import MiddlePlane
 from derivation.scene.dynamic.modal import free_modes
 from derivation.scene.dynamic.stretching_error import deflections_of, stretching_error
@@ -162,6 +162,31 @@ def test_history_is_continuous_in_flight_and_after_it() -> None:
     profiles = result.dynamics.profiles(times, np.zeros(1))[:, 0]
     deflections = result.dynamics.rows(times)[4]
     assert profiles == pytest.approx(deflections, rel=1e-6, abs=1e-9)
+
+
+@pytest.mark.parametrize("time", [1e-4, 3e-4])
+def test_contact_with_a_face_that_has_not_recovered_is_simulated(time: float) -> None:
+    """A slow impact agrees with that of a linear plate, also in the radius of a later contact."""
+    scene = {
+        "sphere": {"radius": 0.01, "mass": 0.3, "material": "steel"},
+        "plate": {"radius": 0.1, "thickness": 0.004, "material": "PMMA", "edge": "clamped",
+                  "retardation_time": time},
+        "inertia": {"modes": 16},
+    }  # fmt: skip
+
+    def impact(speed: float, stretching: bool) -> Result:
+        effects = {"inertia": True, "viscosity": True, "stretching": stretching}
+        return simulate(read(scene | {"impact": {"speed": speed}, "effects": effects}))
+
+    fast = impact(1.0, True)
+    assert fast.complete
+    assert fast.energy_balance is not None
+    assert abs(fast.energy_balance.residual) < 1e-11
+    assert fast.dynamics is not None
+    assert fast.dynamics.impact_history.contacts[1].radius > 0.1
+    one, other = (impact(0.02, stretching) for stretching in (True, False))
+    assert one.restitution == pytest.approx(other.restitution, rel=1e-3)
+    assert one.max_force == pytest.approx(other.max_force, rel=1e-2)
 
 
 def test_explanation_and_messages_name_the_effect() -> None:

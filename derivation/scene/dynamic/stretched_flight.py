@@ -156,13 +156,21 @@ def flight(problem: DynamicProblem, n: int, after: ImpactState, radius: float, m
         state = state_after(parts, piece)
         pieces.append(piece)
         if met:
-            return Flight(tuple(pieces), state._replace(approach=0.0), True)
+            return Flight(tuple(pieces), _touching(problem, state, piece.end, radius), True)
     raise IncompleteError(
         f"sphere and plate moved side by side without contact for {problem.T * x**ONSET:.6g} s, "
         "the limit",
         "use a thicker plate or a lighter sphere, or set effects.inertia = false for a "
         "quasi-static plate",
     )
+
+
+def _touching(problem: DynamicProblem, state: ImpactState, t: float, radius: float) -> ImpactState:
+    """Return a state in which sphere and face touch exactly, without the error of polynomials."""
+    depth = 0.0
+    if problem.retardation_time:
+        depth = float(remaining_depth(problem, np.array([t]), radius, state.q[None])[0])
+    return state._replace(approach=depth)
 
 
 def _piece(

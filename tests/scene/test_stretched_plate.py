@@ -189,6 +189,20 @@ def test_contact_with_a_face_that_has_not_recovered_is_simulated(time: float) ->
     assert one.max_force == pytest.approx(other.max_force, rel=1e-2)
 
 
+def test_approach_speed_of_later_contacts_is_that_of_the_history() -> None:
+    """The speed of sphere and plate just before each contact, by differences of their history."""
+    result = moving("paper's edge", stretching=True)
+    assert result.dynamics is not None
+    for touching in result.dynamics.inertia.contacts[1:]:
+        step = 1e-4 * result.contact_time
+        displacement, deflection = result.dynamics.rows(touching.start - step * np.arange(2))[
+            [2, 4]
+        ]
+        speed = -np.diff(displacement - deflection)[0] / step
+        expected = touching.relative_approach_speed * result.model.v0
+        assert speed == pytest.approx(expected, rel=0.02)
+
+
 def test_explanation_and_messages_name_the_effect() -> None:
     rows = {row.name: row for row in explain(read(SMALL)).effects.rows}
     assert not rows["stretching"].included

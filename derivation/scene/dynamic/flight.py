@@ -70,21 +70,35 @@ def next_contact(
             low, high = begin + float(t[k]), begin + float(t[k + 1])
             if into[k + 1] < 0.0:
                 high = rise(lambda t: problem.flown(after, t).separation_speed, low, high)
-            if _overlap(problem, after, high, radius) >= 0.0:
-                met = rise(lambda t: _overlap(problem, after, t, radius), low, high)
+
+            def overlap(t: float) -> float:
+                return _overlap(problem, problem.flown(after, t), t, radius)
+
+            if overlap(high) >= 0.0:
+                met = rise(overlap, low, high)
                 return met, float(recovering_radius(problem, np.array([met]), radius)[0]), work
         begin, state = begin + float(t[-1]), problem.flown(state, float(t[-1]))
         if -state.displacement > reach and state.velocity <= 0.0:
             return math.inf, 0.0, work
-    raise IncompleteError(
-        f"sphere and plate moved side by side without contact for {problem.T * begin:.6g} s, the "
-        "limit",
+    raise side_by_side(problem, begin)
+
+
+def side_by_side(problem: DynamicProblem, t: float) -> IncompleteError:
+    """Return the error of a flight that has not ended after a time."""
+    return IncompleteError(
+        f"sphere and plate moved side by side without contact for {problem.T * t:.6g} s, the limit",
         "use a thicker plate or a lighter sphere, or set effects.inertia = false for a "
         "quasi-static plate",
     )
 
 
-def meeting_speed(problem: DynamicProblem, after: ImpactState, radius: float, t: float) -> float:
+def meeting_speed(
+    problem: DynamicProblem,
+    after: ImpactState,
+    radius: float,
+    t: float,
+    met: ImpactState | None = None,
+) -> float:
     """Return the speed at which sphere and face meet at a time after separation.
 
     While a viscoelastic surface recovers from a contact, it may touch a sphere that moves away from
@@ -94,14 +108,19 @@ def meeting_speed(problem: DynamicProblem, after: ImpactState, radius: float, t:
     ----------
     after, radius
         State and radius at separation.
+    met
+        State at the time, if the plate stretches: free vibration then leads to it only for a short
+        time before.
     """
     if not problem.retardation_time:
-        return -problem.flown(after, t).separation_speed
+        return -(met or problem.flown(after, t)).separation_speed
     # They may also touch again immediately.
     step = SINCE * (min(t, problem.retardation_time) or problem.retardation_time)
     t = max(t, step)
-    closed = _overlap(problem, after, t, radius) - _overlap(problem, after, t - step, radius)
-    return closed / step
+    now, before = problem.flown(after, t), problem.flown(after, t - step)
+    if met is not None:
+        now, before = met, problem.flown(met, -step)
+    return (_overlap(problem, now, t, radius) - _overlap(problem, before, t - step, radius)) / step
 
 
 def _time_apart(problem: DynamicProblem, state: ImpactState) -> float:
@@ -126,9 +145,8 @@ def _time_apart(problem: DynamicProblem, state: ImpactState) -> float:
     return float(t[max(int(near[0]) - 1, 0)]) if near.size else float(t[-1])
 
 
-def _overlap(problem: DynamicProblem, after: ImpactState, t: float, radius: float) -> float:
-    """Return the overlap of sphere and face at a time after separation; negative for a gap."""
-    state = problem.flown(after, t)
+def _overlap(problem: DynamicProblem, state: ImpactState, t: float, radius: float) -> float:
+    """Return the overlap of sphere and face in a state, a time after separation."""
     if not problem.retardation_time:
         return state.approach
     return state.approach - float(remaining_depth(problem, np.array([t]), radius, state.q[None])[0])

@@ -120,7 +120,10 @@ def _contact_interval(
     lasted, speed = touching.end - touching.start, -before.separation_speed
     if earlier is not None:
         waited = touching.start - earlier.end
-        speed = meeting_speed(problem, earlier.after, earlier.pieces[-1].radius, waited)
+        radius, met = earlier.pieces[-1].radius, None
+        if problem.middle_plane is not None:
+            met = problem.freed(before, radius, waited) if touching.radius else before
+        speed = meeting_speed(problem, earlier.after, radius, waited, met)
     return ContactInterval(
         problem.T * touching.start,
         problem.T * touching.end,

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.polynomial.legendre import legval
 
-from derivation.scene.dynamic.flight import AT_ONCE, STEP, remaining_depth
+from derivation.scene.dynamic.flight import AT_ONCE, STEP, remaining_depth, side_by_side
 from derivation.scene.dynamic.middle_plane import MiddlePlane
 from derivation.scene.dynamic.modal import Indices
 from derivation.scene.dynamic.next_element import PHASE, stretched_step
@@ -157,12 +157,7 @@ def flight(problem: DynamicProblem, n: int, after: ImpactState, radius: float, m
         pieces.append(piece)
         if met:
             return Flight(tuple(pieces), _touching(problem, state, piece.end, radius), True)
-    raise IncompleteError(
-        f"sphere and plate moved side by side without contact for {problem.T * x**ONSET:.6g} s, "
-        "the limit",
-        "use a thicker plate or a lighter sphere, or set effects.inertia = false for a "
-        "quasi-static plate",
-    )
+    raise side_by_side(problem, x**ONSET - BEGIN)
 
 
 def _touching(problem: DynamicProblem, state: ImpactState, t: float, radius: float) -> ImpactState:
@@ -222,8 +217,9 @@ def _piece(
 
 def _unsolved(problem: DynamicProblem, x: float) -> IncompleteError:
     """Return the error of a flight without a solution."""
+    time = problem.T * (x**ONSET - BEGIN)
     return IncompleteError(
-        f"the vibration of the stretched plate has no solution after {problem.T * x**ONSET:.3g} s",
+        f"the vibration of the stretched plate has no solution {time:.3g} s after a contact",
         "reduce impact.speed, or set effects.stretching = false",
     )
 

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from derivation.scene import Result, SceneError, explain, read, simulate
+from derivation.scene import Result, SceneError, explain, load, read, simulate
 from derivation.scene.dynamic.stretching_error import deflections_of, stretching_error
 from derivation.scene.dynamic.stretching_needed import NEEDED
 from derivation.scene.impact import selected_effects
@@ -13,6 +13,8 @@ from derivation.scene.measured.specimen import measurement_of
 from derivation.scene.output import map as map_
 from derivation.scene.rows.rows import solve
 from derivation.scene.scene import OUTPUTS
+from tests.scene.test_unusable_results import SOFT
+from tests.shared_scenes import EXAMPLES
 
 pytestmark = pytest.mark.one_version
 Tables = dict[str, dict[str, Any]]
@@ -95,6 +97,24 @@ def test_heavy_sphere_that_stretches_the_plate_is_simulated() -> None:
     assert abs(result.energy_balance.residual) < 1e-6
     with pytest.raises(SceneError, match=r"remove effects\.stretching = false"):
         simulate(read(heavy | {"effects": {"stretching": False}}))
+
+
+def test_weight_alone_decides_under_a_slow_sphere() -> None:
+    """Without weight, this plate would deflect by a hundredth of its thickness."""
+    slow = changed(SOFT, "impact", speed=1e-3) | {"effects": {}}
+    assert explain(read(slow)).effects.law.stretches
+    assert not explain(read(changed(slow, "impact", gravity=0.0))).effects.law.stretches
+
+
+@pytest.mark.parametrize(
+    ("stretching", "words"), [(True, "simplified"), (False, "= true includes")]
+)
+def test_summary_states_how_stretching_causes_the_model_error(stretching: bool, words: str) -> None:
+    result = simulate(load(EXAMPLES / "soft_layer.toml"))
+    scene = read(result.scene.to_json() | {"effects": {"stretching": stretching}})
+    text = " ".join(str(simulate(scene)).split())
+    assert "mostly by" in text
+    assert words in text.partition("mostly by")[2]
 
 
 def test_rows_of_a_sweep_are_equal_to_single_simulations() -> None:

@@ -5,6 +5,7 @@ import math
 from derivation.scene.effects.effect import Bound, BoundContext, Effect, none_of
 from derivation.scene.effects.inertia import PlateInertia
 from derivation.scene.model import Model
+from derivation.scene.quantity import ONE_DIGIT, percent
 
 
 class Stretching(Effect):
@@ -22,7 +23,10 @@ class Stretching(Effect):
     stretches = True
     takes_rows = False
     remedy = "give plate.density [kg/m^3] and a plate of finite extent"
-    cause = "needed, because without it the model error of a result would be about 30 % or more"
+    cause = (
+        "needed, because without it the model error of a result would be about "
+        f"{percent(ONE_DIGIT)} or more"
+    )
 
     def not_applicable_reason(self, model: Model) -> str:
         """Return a reason if it is not included, or the plate cannot stretch."""

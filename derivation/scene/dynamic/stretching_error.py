@@ -21,6 +21,7 @@ import numpy as np
 from derivation.scene.contact_law.corrections import membrane_stress, stretching
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic.time_element import A, P
+from derivation.scene.kernels import Numbers
 from derivation.scene.quantity import percent
 from generated.arrays import Double as Array
 
@@ -84,8 +85,7 @@ def stretching_error(
 ) -> dict[str, float]:
     """Return the relative error of each result by the neglect of stretching.
 
-    If the plate stretches, only a part of a stiffening of at most 1 is neglected: the relative
-    error of the forces of stretching.
+    If the plate stretches, the error of its forces remains.
 
     Later contacts, and with them the restitution, depend on the phase of the plate's vibration, and
     change more. If the first contact splits or joins the next one, its duration may change by more,
@@ -94,8 +94,8 @@ def stretching_error(
     size = float(stretching(law.model, deflections.largest))
     sizes = np.asarray(stretching(law.model, deflections.so_far), dtype=np.float64)
     if law.stretches:
-        part = force_error(law, motion, deflections)
-        size, sizes = part * min(1.0, size), part * np.minimum(1.0, sizes)
+        remains = force_error(law, motion, deflections)
+        size, sizes = float(remains.at(size)), np.asarray(remains.at(sizes))
     rebound = abs(motion.restitution) if motion.inertia.complete else 1.0  # else unknown
     return {
         "contact_time": max(TIME * float(sizes[-1]), earlier_end(motion.histories[0][P], sizes)),
@@ -106,17 +106,39 @@ def stretching_error(
     }
 
 
-def force_error(law: ContactLaw, motion: "DynamicImpact", deflections: Deflections) -> float:
-    """Return the relative error of the forces of stretching by what their model neglects [1].
+class ForceError(NamedTuple):
+    """Relative errors of the forces on a plate that stretches.
 
-    The middle plane has inertia, and the angle of a steep plate is not its slope.
+    Attributes
+    ----------
+    rotation
+        That of all forces at the largest deflection: the angle of a steep plate is not its slope.
+    in_plane
+        That of the forces of stretching: the middle plane has inertia.
+    largest
+        The stiffening at the largest deflection.
     """
+
+    rotation: float
+    in_plane: float
+    largest: float
+
+    def at(self, size: Numbers) -> Numbers:
+        """Return the relative error of all forces at stiffenings; both grow as the square."""
+        part = size / self.largest if self.largest else 0.0 * size
+        found: Numbers = self.rotation * part + self.in_plane * np.minimum(1.0, size)
+        return found
+
+
+def force_error(law: ContactLaw, motion: "DynamicImpact", deflections: Deflections) -> ForceError:
+    """Return the relative errors of forces by what the model of stretching neglects."""
     model, (steepness, deflection) = law.model, motion.steepness
     part = deflections.largest / deflection if deflection else 0.0
     nu = model.poissons_ratio
     fastest = math.sqrt(2.0 * model.mu / ((1.0 - nu) * model.density))
     transit = 2.0 * float(model.h) / (fastest * motion.contact_time)
-    return ROTATION * part * part * steepness + IN_PLANE * transit
+    largest = float(stretching(model, deflections.largest))
+    return ForceError(ROTATION * part * part * steepness, IN_PLANE * transit, largest)
 
 
 def exceeds_modes(law: ContactLaw, motion: "DynamicImpact", outputs: Sequence[str]) -> bool:
@@ -141,9 +163,10 @@ def stress_change(law: ContactLaw, motion: "DynamicImpact") -> float:
     """
     deflection = motion.deflection_before_separation(law)
     size = float(stretching(law.model, deflection))
-    if law.stretches:
-        return force_error(law, motion, deflections_of(law, motion)) * min(1.0, FORCE * size)
     factor = 1.0 if len(motion.histories) == 1 else FORCE
+    if law.stretches:
+        remains = force_error(law, motion, deflections_of(law, motion))
+        return factor * remains.rotation + remains.in_plane * min(1.0, FORCE * size)
     return float(membrane_stress(law.model, deflection)) + factor * size
 
 

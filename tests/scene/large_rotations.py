@@ -29,6 +29,8 @@ POINTS = 3
 """Gauss points of an element."""
 TURNS = 60
 """Largest number of iterations."""
+SLOW = 6
+"""Number of iterations after which a stiffness is renewed."""
 TINY = 1e-30
 """Imaginary step of a derivative."""
 
@@ -178,6 +180,8 @@ class Shell:
         (value, first, second), (r, _), (of_w, of_u) = self.cubics, self.points, self.free
         (square, w), (plane, u) = (eigh(*pair) for pair in self.linear)  # with masses of 1
         w, u = w[:, : modes or None], u[:, : in_plane or None]
+        of_edge = [np.zeros((value.shape[1], x.shape[1])) for x in (w, u)]
+        of_edge[0][of_w], of_edge[1][of_u] = w, u
         return Reduced(
             self,
             np.concatenate([first[:, of_w] @ w, second[:, of_w] @ w]).T.copy(),
@@ -185,7 +189,7 @@ class Shell:
             square[: w.shape[1]],
             plane[: u.shape[1]],
             w[-2] if self.edge == "free" else w[0],
-            (w[-1], u[-2], u[-1]),
+            (of_edge[0][-1], of_edge[1][-2], of_edge[1][-1]),
             value[:, of_w] @ w,
         )
 
@@ -250,13 +254,20 @@ class Reduced:
         by_p = by_p + np.multiply.outer(spring * C * moved, self.at_edge[1])
         return by_q, by_p, energy + spring / 2.0 * (D * angle**2 + C * moved**2)
 
-    def at_rest(self, theory: Theory, q: Array, p: Array) -> Array:
-        """Return p of a middle plane in equilibrium for q, by iteration from a guess."""
-        for _ in range(TURNS):
-            step = self.forces(theory, q, p)[1] / self.in_plane
+    def at_rest(self, theory: Theory, q: Array, p: Array, inverse: Array) -> tuple[Array, Array]:
+        """Return p of a middle plane in equilibrium for q, and the inverse of a near stiffness.
+
+        Both are improved from a guess. The stiffness is renewed if the iteration is slow.
+        """
+        for turn in range(1, TURNS):
+            step = inverse @ self.forces(theory, q, p)[1]
             p = p - step
             if self.in_plane @ step**2 <= 1e-13 * self.in_plane @ p**2:
-                return p
+                return p, inverse
+            if turn % SLOW == 0:
+                moved = p + 1j * TINY * np.eye(p.size)
+                by_p = self.forces(theory, np.broadcast_to(q, (p.size, q.size)), moved)[1]
+                inverse = np.linalg.inv(np.imag(by_p) / TINY)
         raise ArithmeticError("the middle plane has not converged")
 
     def static(self, theory: Theory, load: Array, steps: int = 4) -> tuple[Array, Array]:
@@ -308,6 +319,7 @@ def impact(
     cosine, sine, still = np.cos(omega * dt), np.sin(omega * dt), Motion(0.0, 0.0, dt)
     q, rate, push = np.zeros((3, omega.size))
     p, before, earlier = np.zeros((3, plane.size))
+    inverse = np.diag(1.0 / plane)
     y, v, t, y_push, first, last = 0.0, speed, 0.0, 0.0, 0.0, duration
     peak = depth = deflected = widest = stored = 0.0
     while v > 0.0 or y > -1.2 * deflected or t < 1.2 * last:
@@ -321,7 +333,8 @@ def impact(
                 p = q[n:]
             else:
                 guess = 3.0 * (p - before) + earlier
-                p, before, earlier = plate.at_rest(theory, w, guess), p, before
+                before, earlier = p, before
+                p, inverse = plate.at_rest(theory, w, guess, inverse)
             by_w, by_p, energy = plate.forces(theory, w, p)
             pull[:n] = share * (held * w - by_w)
             if in_plane:

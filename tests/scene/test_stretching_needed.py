@@ -86,6 +86,15 @@ def test_no_false_remedy_is_named_for_a_plate_without_inertia() -> None:
     assert "effects.stretching" not in note
 
 
+def test_plate_without_modes_has_effects_without_stretching() -> None:
+    """It can be explained and drawn in a map, and is rejected only if it is simulated."""
+    thick = changed(PANE, "plate", radius=0.3, thickness=0.6, edge="simply-supported")
+    thick = changed(thick, "impact", speed=1e3) | {"effects": {"inertia": True}}
+    assert not explain(read(thick)).effects.law.stretches
+    with pytest.raises(SceneError, match=r"plate\.edge: expected .* bending modes"):
+        simulate(read(thick))
+
+
 def test_heavy_sphere_that_stretches_the_plate_is_simulated() -> None:
     """It is rejected if the scene disables stretching."""
     heavy = changed(changed(PANE, "sphere", mass=0.06), "impact", speed=6.5)

@@ -144,7 +144,10 @@ def simulated(row: Mapping[str, Any]) -> dict[str, Any]:
 
     No tolerance is given, and the program selects the numbers of modes and branches.
     """
-    effects = {"spherical_profile": row["spherical_profile"], "inertia": True}
+    # The finite elements are linear.
+    effects = {
+        "spherical_profile": row["spherical_profile"], "inertia": True, "stretching": False,
+    }  # fmt: skip
     try:
         result = simulate(read({**row["scene"], "effects": effects}))
     except SceneError as error:

@@ -127,6 +127,8 @@ def solve(number: int, data: Scene, position: float) -> InertiaRow | str:
     """
     try:
         data, rtol = with_tolerance(data, position)
+        # The reference is a plate that does not stretch.
+        data = {**data, "effects": {**data.get("effects", {}), "stretching": False}}
         _, selected = selected_effects(read(data), rtol)
         values, accuracy = solve_selected(selected, rtol)
         known = "inertia" in selected.law.effects

@@ -125,7 +125,13 @@ def explain(scene: Scene, rtol: float | None = None) -> Explanation:
     """
     _, selected = selected_effects(scene, rtol)
     law = selected.law
-    timed = [e for e in EFFECTS if e in law.chosen and not (e.dynamic and _has_most_modes(law))]
+    timed = [
+        effect
+        for effect in EFFECTS
+        if effect in law.chosen
+        and not effect.stretches  # it is not a part of the contact law
+        and not (effect.dynamic and _has_most_modes(law))
+    ]
     times = {effect.name: _evaluation_time(law, effect) for effect in timed}
     return Explanation(selected, times, (_inertia(selected),))
 

@@ -266,7 +266,26 @@ def selected_effects(
     check_enabled(scene, model)
     if scene.measured is not None:
         tolerance = selection_tolerance(remaining_of(scene, rtol))
-    return rtol, decide(model, wanted, tolerance, outputs, rtol is None, growth)
+    selected = decide(model, wanted, tolerance, outputs, rtol is None, growth)
+    if _needs_stretching(scene, rtol, selected):
+        inertia = replace(model.inertia, stretching=True)
+        model = replace(model, inertia=inertia)
+        selected = decide(model, wanted, tolerance, outputs, rtol is None, growth)
+    return rtol, selected
+
+
+def _needs_stretching(scene: Scene, rtol: float | None, selected: SelectedEffects) -> bool:
+    """Return whether a plate must stretch for accurate results, if the scene does not decide it.
+
+    In a measurement, the plate without the constant decides it for all values of the constant.
+    """
+    if not (scene.effects.may_stretch and selected.law.dynamic):
+        return False
+    if scene.measured is not None:
+        return selected_effects(without_constant(scene), rtol)[1].law.stretches
+    from derivation.scene.dynamic.stretching_needed import needs_stretching
+
+    return needs_stretching(selected.law, selected.outputs)
 
 
 def selection_tolerance(rtol: float | None) -> float:

@@ -37,7 +37,8 @@ def impact(
                 radius=ratio * thickness, thickness=thickness, material="glass", edge=edge, **given
             ),
             impact=pc.Impact(speed=2.0),
-            effects=pc.Effects(inertia=True, non_hertzian_pressure=True),
+            # The tension of a plate that stretches reaches the edge at once.
+            effects=pc.Effects(inertia=True, non_hertzian_pressure=True, stretching=False),
             inertia=pc.Inertia(modes=modes),
         )
     )

@@ -122,7 +122,7 @@ def test_recontact_before_recovery_is_simulated(
                 "sphere": {"radius": 0.02, "mass": mass},
                 "plate": plate,
                 "impact": {"speed": 1.0},
-                "effects": {"inertia": True},
+                "effects": {"inertia": True, "stretching": False},
                 "inertia": {"modes": 8},
             }
         )

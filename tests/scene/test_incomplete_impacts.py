@@ -39,6 +39,7 @@ edge = "clamped"
 speed = 6.0
 [effects]
 inertia = true
+stretching = false
 [inertia]
 modes = 24
 """

@@ -22,6 +22,7 @@ HAIL: dict[str, dict[str, Any]] = {
     "sphere": {"radius": 0.0125, "material": "ice"},
     "plate": {"radius": 0.58, "thickness": 1e-3, "material": "steel", "loss_factor": 0.2},
     "impact": {"speed": 7.9},
+    "effects": {"stretching": False},
 }
 BALL: dict[str, dict[str, Any]] = {
     "sphere": {"radius": 0.0213, "youngs_modulus": 1.3e8, "poissons_ratio": 0.45, "mass": 0.0459},
@@ -213,6 +214,7 @@ SOFT: dict[str, Any] = {
         "density": 790.0, "edge": "simply-supported",
     },
     "impact": {"speed": 2.5e-3, "gravity": 9.81},
+    "effects": {"stretching": False},
 }  # fmt: skip
 """A thin plate that the weight of the sphere alone deflects by more than its thickness."""
 

@@ -192,7 +192,8 @@ def _stiff_unloading(problem: DynamicProblem, time: float) -> StiffUnloadingErro
 def advice_for_curvature(problem: DynamicProblem) -> str:
     """Return advice that makes the plate less curved than the sphere."""
     first = problem.inverse_modal_mass[problem.by_speed[:1]]
-    if not np.any(first > HEAVY):
+    # A quasi-static plate does not stretch.
+    if not np.any(first > HEAVY) or problem.middle_plane is not None:
         return "use a smaller sphere or a thicker plate"
     return (
         "use a smaller sphere or a thicker plate, or try effects.inertia = false: for so heavy a "

@@ -8,6 +8,7 @@ import numpy as np
 from derivation.scene import kernels
 from derivation.scene.dynamic.modal import Modes
 from derivation.scene.effects.edge import CLAMPED, SUPPORTED
+from derivation.scene.input.materials import engineering_constants
 from derivation.scene.model import Model
 from derivation.scene.numerics.quadrature import derivative, gauss, up_to
 from generated.arrays import Double as Array
@@ -58,7 +59,7 @@ class MiddlePlane:
         everywhere = kappa * w * x
         tension = everywhere + inside * x / (x * x)[:, None] + (w - inside) / x
         weighted = (w * x)[:, None] * tension
-        young = 2.0 * model.mu * (1.0 + nu)
+        young, _ = engineering_constants(model.lam, model.mu)
         tension_unit = 0.5 * young * model.h * (depth / model.b) ** 2
         unit = 2.0 * np.pi * tension_unit * depth / force
         return cls(slopes, 0.5 * (weighted + weighted.T), w / x + everywhere, unit, tension_unit)

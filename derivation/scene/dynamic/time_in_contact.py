@@ -100,12 +100,17 @@ def largest_deflection(law: ContactLaw) -> float:
     """Return the largest deflection [m] of the plate, roughly.
 
     It is at most about that under a heavy sphere, and that of an infinite plate under an inelastic
-    impact.
+    impact; both without weight.
     """
     model = law.model
     _, swing = _heaviness(law)
     infinite = scales.time_unit(model, law.modulus) * scales.zener_number(model)
     return model.v0 * min(swing / math.pi, infinite)
+
+
+def static_deflection(law: ContactLaw) -> float:
+    """Return the deflection [m] of the plate under the weight of the sphere."""
+    return law.model.gravity * (_heaviness(law)[1] / math.pi) ** 2
 
 
 def check_long(law: ContactLaw, tolerance: float) -> None:
@@ -125,19 +130,32 @@ def check_long(law: ContactLaw, tolerance: float) -> None:
         return
     steps, most = _steps(law, 2 * affordable(law), tolerance, IN_CONTACT * swing)
     if steps > most:
+        remedy = "set effects.inertia = false (for such a sphere the plate is nearly quasi-static)"
+        if law.stretches:  # a quasi-static plate would not
+            remedy = "use a thicker or smaller plate or a lighter sphere"
         raise SceneError(
             f"effects.inertia: the sphere is {ratio:.3g} times as heavy as the first mode of the "
             f"plate and stays in contact for about {swing:.2g} s, which needs at least {steps:.2g} "
-            f"time steps, more than the limit of {most}; set effects.inertia = false (for such a "
-            "sphere the plate is nearly quasi-static), or choose inertia.modes"
+            f"time steps, more than the limit of {most}; {remedy}, or choose inertia.modes"
         )
 
 
-def check_deflected(law: ContactLaw, tolerance: float) -> None:
-    """Reject a heavy sphere that deflects the plate so far that stretching doubles its stiffness.
+def deflects_too_far(law: ContactLaw) -> bool:
+    """Return whether a heavy sphere deflects a plate until stretching would double its stiffness.
 
-    Without this check, up to a hundred contacts would be simulated with a plate model that is far
-    too soft.
+    On a plate that does not stretch, such an impact may have up to a hundred contacts.
+    """
+    return _heavy_deflection(law) >= doubling_deflection(law.model)
+
+
+def _heavy_deflection(law: ContactLaw) -> float:
+    """Return a lower estimate of the deflection [m] under a heavy sphere, 0 under any other."""
+    ratio, swing = _heaviness(law)
+    return DEFLECTED * law.model.v0 * swing / math.pi if ratio > SPRING else 0.0
+
+
+def check_deflected(law: ContactLaw, tolerance: float) -> None:
+    """Reject a heavy sphere that deflects a plate which does not stretch too far.
 
     Parameters
     ----------
@@ -146,20 +164,18 @@ def check_deflected(law: ContactLaw, tolerance: float) -> None:
         simulated.
     """
     model = law.model
-    ratio, swing = _heaviness(law)
     free = model.inertia.modes or model.inertia.infinite_plate or law.stretches
-    deflection = DEFLECTED * model.v0 * swing / math.pi
-    limit = doubling_deflection(model)
-    if free or ratio <= SPRING or deflection < limit:
+    if free or not deflects_too_far(law):
         return
-    thicknesses = deflection / (2.0 * float(model.h))
+    deflection, limit = _heavy_deflection(law), doubling_deflection(model)
+    thicknesses, (ratio, swing) = deflection / (2.0 * float(model.h)), _heaviness(law)
     raise SceneError(
         f"effects.inertia: expected a deflection of less than {limit:.2g} m, at which stretching, "
-        "which the model neglects, doubles the stiffness of the plate, got at least about "
+        "which the scene disables, doubles the stiffness of the plate, got at least about "
         f"{deflection:.2g} m ({thicknesses:.2g} thicknesses) under a sphere {ratio:.3g} times as "
-        "heavy as its first mode; use a thicker or smaller plate"
-        f"{_slower(law, tolerance, limit, swing)}, set effects.stretching = true, or set "
-        "inertia.modes to simulate a plate that does not stretch"
+        "heavy as its first mode; remove effects.stretching = false, use a thicker or smaller plate"
+        f"{_slower(law, tolerance, limit, swing)}, or set inertia.modes to simulate a plate that "
+        "does not stretch"
     )
 
 
@@ -173,7 +189,7 @@ def _slower(law: ContactLaw, tolerance: float, limit: float, swing: float) -> st
     swing
         Half the period [s] of the sphere on the plate.
     """
-    sag = law.model.gravity * (swing / math.pi) ** 2
+    sag = static_deflection(law)
 
     def speed_for(deflection: float) -> float:
         """Return the speed [m/s] for a largest deflection [m]; 0 if the weight alone exceeds it."""

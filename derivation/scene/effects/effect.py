@@ -219,6 +219,8 @@ class Effect:
         Name of an effect that it is a part of; if the scene disables that, it does not apply.
     remedy
         What to add to a scene to which it does not apply.
+    cause
+        Why it is included automatically; empty if the tolerance is the reason.
     """
 
     name: ClassVar[str]
@@ -245,6 +247,7 @@ class Effect:
     takes_rows: ClassVar[bool] = True
     within: ClassVar[str] = ""
     remedy: ClassVar[str] = ""
+    cause: ClassVar[str] = ""
 
     def not_applicable_reason(self, model: Model) -> str:  # noqa: ARG002
         """Return why the effect does not apply to a scene; empty if it applies."""

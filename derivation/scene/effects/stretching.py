@@ -5,6 +5,7 @@ import math
 from derivation.scene.effects.effect import Bound, BoundContext, Effect, none_of
 from derivation.scene.effects.inertia import PlateInertia
 from derivation.scene.model import Model
+from derivation.scene.quantity import ONE_DIGIT, percent
 
 
 class Stretching(Effect):
@@ -22,11 +23,15 @@ class Stretching(Effect):
     stretches = True
     takes_rows = False
     remedy = "give plate.density [kg/m^3] and a plate of finite extent"
+    cause = (
+        "needed, because without it the model error of a result would be about "
+        f"{percent(ONE_DIGIT)} or more"
+    )
 
     def not_applicable_reason(self, model: Model) -> str:
-        """Return a reason if the scene does not include it, or the plate cannot stretch."""
+        """Return a reason if it is not included, or the plate cannot stretch."""
         if not model.inertia.stretching:
-            return "not enabled in the scene; the model error includes its neglect"
+            return "omitted; the model error includes its neglect"
         if not model.density:
             return "the density of the plate is unknown"
         return "the plate is infinite" if model.inertia.infinite_plate else ""

@@ -25,8 +25,9 @@ class Effects(Table):
     bending, finite_thickness, finite_radius, edge, inertia, damping
         Effects of the plate, with the same values.
     stretching
-        Whether the middle plane of the plate stretches, by default False. It requires inertia, and
-        a plate with a density and of finite extent.
+        Whether the middle plane of the plate stretches, with the same values. It requires inertia,
+        and a plate with a density and of finite extent. With "auto" it is included if, without it,
+        the model error of a result would be about 30 % or more.
     compare_paper_motion
         Whether to print the paper's perturbation motion, too; by default False.
 
@@ -55,11 +56,7 @@ class Effects(Table):
     viscosity: Wanted = _switch("viscoelastic contact")
     gravity: Wanted = _switch("weight of the sphere during contact", False)
     inertia: Wanted = _switch("inertia of the plate", False)
-    stretching: bool = Field(
-        default=False,
-        description="stretching of the plate's middle plane, for large deflections",
-        examples=[True],
-    )
+    stretching: Wanted = _switch("stretching of the plate's middle plane, for large deflections")
     damping: Wanted = _switch("damping of the plate vibration")
     compare_paper_motion: bool = Field(
         default=False,
@@ -81,5 +78,10 @@ class Effects(Table):
 
     @property
     def stretches(self) -> bool:
-        """Whether the middle plane of the plate stretches."""
-        return self.stretching
+        """Whether the scene enables stretching of the middle plane."""
+        return self.stretching is True
+
+    @property
+    def may_stretch(self) -> bool:
+        """Whether the middle plane stretches if the results require it."""
+        return self.stretching == "auto"

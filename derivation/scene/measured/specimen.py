@@ -1,6 +1,7 @@
 """The specimen on which a restitution was measured: a thick block, or the plate itself."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from derivation.scene.measured.measurement import STATIC_RTOL, Measurement
@@ -15,7 +16,7 @@ def measurement_of(tables: Mapping[str, Any], wanted: Mapping[str, Any]) -> Meas
     speed = wanted.get("tested_at", tables["impact"]["speed"])
     scene = dict(tables) | {"impact": tables["impact"] | {"speed": speed}}
     if wanted.get("target", "block") == "plate":
-        on_plate = Measurement(scene, key, goal)
+        on_plate = _with_one_plate(Measurement(scene, key, goal))
         return on_plate.to(STATIC_RTOL) if on_plate.static else on_plate
     size = BLOCK * tables["sphere"]["radius"]
     shape = "radius", "thickness", "half_thickness", "edge", "tensile_strength"
@@ -28,3 +29,15 @@ def measurement_of(tables: Mapping[str, Any], wanted: Mapping[str, Any]) -> Meas
     kept = {k: v for k, v in scene.items() if k in ("sphere", "materials")}
     made = {"plate": block, "effects": effects, "impact": scene["impact"]}
     return Measurement(kept | made, key, goal).to(STATIC_RTOL)
+
+
+def _with_one_plate(measured: Measurement) -> Measurement:
+    """Return the measurement on a plate that stretches for all values of the constant, or none."""
+    from derivation.scene.impact import selected_effects
+
+    lossless = measured.scene(None)
+    if not lossless.effects.may_stretch:
+        return measured
+    stretching = selected_effects(lossless)[1].law.stretches
+    effects = measured.tables.get("effects", {}) | {"stretching": stretching}
+    return replace(measured, tables=dict(measured.tables) | {"effects": effects})

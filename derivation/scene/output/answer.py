@@ -134,7 +134,11 @@ def _model_error(result: "Result") -> str:
     notes = [name.replace("_", " ")] if others < UNLIKE * result.model_error else []
     if result.model_error >= USABLE:
         parts = causes(result, name)
-        notes.append(f"mostly by {_in_words(result)[max(parts, key=parts.__getitem__)]}")
+        largest, law = max(parts, key=parts.__getitem__), result.effects.law
+        notes.append(f"mostly by {_in_words(result)[largest]}")
+        can_stretch = law.dynamic and not (law.stretches or law.model.inertia.infinite_plate)
+        if largest == STRETCHING and can_stretch:
+            notes.append("which effects.stretching = true includes")
     remark = f" ({', '.join(notes)})" if notes else ""
     return f", model error {up_to(result.model_error)}{remark}"
 
@@ -146,12 +150,15 @@ def _with_largest_error(result: "Result") -> str:
 
 def _in_words(result: "Result") -> dict[str, str]:
     """Return the causes of a model error in words."""
+    law, stretching = result.effects.law, "stretching of the plate"
     own = "plate and edge" if result.dynamics is not None else f"the {result.model.edge} edge"
     sphere = "the finite size of the sphere"
+    if law.stretches:
+        stretching = "the simplified stretching of the plate"
     return {
         PLATE: own,
-        STRETCHING: "stretching of the plate",
-        SPHERE: sphere if result.effects.law.softness else "the motion of the faces",
+        STRETCHING: stretching,
+        SPHERE: sphere if law.softness else "the motion of the faces",
         TIMES: "different retardation times of sphere and plate",
         MEASURED: "the measurement of the restitution",
     }

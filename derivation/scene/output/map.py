@@ -13,7 +13,7 @@ import numpy as np
 
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import energy_of
-from derivation.scene.effects import EFFECTS, PAPER
+from derivation.scene.effects import BY_NAME, EFFECTS, PAPER
 from derivation.scene.errors import SceneError
 from derivation.scene.model import Model
 from derivation.scene.output.plot import saved
@@ -31,7 +31,9 @@ THICKNESSES = np.geomspace(1e-3, 10.0, 25)
 RADII = np.geomspace(1e-3, 6.0, 25)
 """a/h of the map."""
 COLOURS = ("#1f4e79", "#b35806", "#1b7837", "#762a83", "#b2182b", "#01665e", "#e7298a")
-CHOICES = {"auto": "", True: " (enabled in the scene)", False: " (disabled in the scene)"}
+CHOICES: dict[str | bool, str] = {
+    "auto": "", True: " (enabled in the scene)", False: " (disabled in the scene)",
+}  # fmt: skip
 """Remark in the legend by the choice of the scene."""
 OUTSIDE = "0.88"
 """Grey of points outside the range of the contact law."""
@@ -149,7 +151,7 @@ def figure(result: Result, rtol: float) -> "Figure":
     )
     colours, constant = iter(COLOURS), dict[str, list[str]]()
     for names, ratio in lines(map_grid).items():
-        label = ", ".join(name + CHOICES[wanted[name]] for name in names)
+        label = ", ".join(name + _remark(name, wanted[name]) for name in names)
         finite = ratio[np.isfinite(ratio)]
         if not finite.size or finite.min() > 1.0 or finite.max() < 1.0:
             where = "everywhere" if finite.size and finite.min() > 1.0 else "nowhere"
@@ -174,6 +176,11 @@ def figure(result: Result, rtol: float) -> "Figure":
     handles.append(Patch(facecolor=OUTSIDE, label="outside the range of the contact law"))
     made.legend(handles=handles, loc="outside lower center", fontsize=8, frameon=False)
     return made
+
+
+def _remark(name: str, choice: str | bool) -> str:
+    """Return a remark on the choice of an effect; the tolerance does not decide on all of them."""
+    return " (as in this scene)" if choice == "auto" and BY_NAME[name].cause else CHOICES[choice]
 
 
 def _line(axes: "Axes", map_grid: Grid, ratio: Array, colour: str, label: str) -> None:

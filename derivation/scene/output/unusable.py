@@ -101,14 +101,24 @@ def _by_stretching(result: "Result") -> str:
             either = f"{speed} or {either}"
         remedies.append(f"{name.replace('_', ' ')} {either}")
     times, worst = deflections.largest / thickness, max(by_it.values())
-    why = ", and its slope is large"
-    if not result.effects.law.stretches:
-        why = " and stretches, which the model neglects without effects.stretching = true"
     return (
-        f"The plate deflects by {times:.2g} thicknesses{why} (error {up_to(worst)}). "
+        f"The plate deflects by {times:.2g} thicknesses{_neglected(result)} (error "
+        f"{up_to(worst)}). "
         f"{'Speed or thickness' if slow else 'Thickness'} for an error of about "
         f"{percent(USABLE)}: {', '.join(remedies)}."
     )
+
+
+def _neglected(result: "Result") -> str:
+    """Return what the model neglects of the large deflection, in words."""
+    law = result.effects.law
+    if law.stretches:
+        return ", and its slope is large"
+    if not law.dynamic:
+        return " and stretches, which the model without inertia of the plate neglects"
+    if law.model.inertia.infinite_plate:
+        return " and stretches, which the model of an infinite plate neglects"
+    return " and stretches, which the model neglects without effects.stretching = true"
 
 
 def _slower(part: float, weight: float) -> float:

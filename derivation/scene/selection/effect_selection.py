@@ -299,7 +299,7 @@ def _row(
     elif included and name not in selection.needed:
         why = f"not needed to meet {tolerance}, but takes no extra time"
     elif included:
-        why = f"needed to meet {tolerance}"
+        why = effect.cause or f"needed to meet {tolerance}"
     else:
         most = largest_growth(growth, outputs) * error
         changed = named(outputs, "the results")

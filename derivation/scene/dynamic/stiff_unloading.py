@@ -17,9 +17,9 @@ from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.errors import EndlessError, SceneError, StiffUnloadingError
 from derivation.scene.input.settings import FEWEST_MODES
 
-ENOUGH = 3e5
+ENOUGH = 5e5
 """Largest work, in the units of `contact_sequence.WORK`, of all contacts that only determine which
-number a message names: 0.3 s. A contact that takes more is assumed to have a solution."""
+number a message names: half a second. A contact that takes more is assumed to have a solution."""
 
 
 def number_with_solution(law: ContactLaw, error: StiffUnloadingError) -> int:

@@ -223,6 +223,7 @@ def test_fewer_modes_after_a_stiff_unloading_are_tried_without_a_tolerance() -> 
                   "poissons_ratio": 0.2, "density": 1389.0, "edge": "simply-supported",
                   "yield_stress": 5.847e6},
         "impact": {"speed": 6.744},
+        "effects": {"stretching": False},
         "inertia": {"branches": "A0"},
     }  # fmt: skip
     with pytest.raises(SceneError, match="fewer modes without a tolerance") as rejected:

@@ -100,15 +100,36 @@ class EndlessError(IncompleteError):
 
 
 class StiffUnloadingError(IncompleteError):
-    """The error of a yielded contact that unloads more stiffly than short plate modes respond."""
+    """The error of a yielded contact that unloads more stiffly than short plate modes respond.
 
-    def of_chosen_modes(self) -> "StiffUnloadingError":
-        """Return the error if the scene gives the number of modes.
+    Attributes
+    ----------
+    fewer
+        A number of modes with which there may be a solution; 0 if none is known.
+    branched
+        Whether the lowest wave branch alone may have one.
+    chosen
+        Whether the scene gives the number of modes; an automatic one is often that of the modes for
+        which there is a solution.
+    """
 
-        An automatic number is often that of the modes for which there is a solution.
-        """
-        others = str(self.remedy).removeprefix("try ")
-        return StiffUnloadingError(self.why, f'try inertia.modes = "auto", or {others}')
+    def __init__(self, why: str, fewer: int, branched: bool, chosen: bool = False) -> None:
+        remedies = ['inertia.modes = "auto"'] if chosen else []
+        if fewer:
+            few = f"fewer modes without a tolerance, such as inertia.modes = {fewer}"
+            remedies.append(few)
+        if branched:
+            remedies.append('inertia.branches = "A0"')
+        if not fewer:
+            remedies.append("a lower impact.speed")
+            remedies.append("effects.plasticity = false for an elastic contact")
+        super().__init__(why, "try " + ", or ".join(remedies))
+        self.fewer, self.branched = fewer, branched
+        self.args = why, fewer, branched, chosen  # from which pickle restores it
+
+    def named(self, fewer: int, chosen: bool) -> "StiffUnloadingError":
+        """Return the error with a number of modes that has a solution, or with 0 for none."""
+        return StiffUnloadingError(self.why, fewer, self.branched, chosen)
 
 
 class ToleranceError(SceneError):

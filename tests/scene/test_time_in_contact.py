@@ -151,3 +151,27 @@ def test_impact_with_too_many_time_steps_is_rejected_and_runs_on_a_thicker_plate
         simulate(read(scene(0.0158, plate, 1.0)))
     result = simulate(read(scene(0.0158, plate | {"thickness": 6e-3}, 1.0)))
     assert result.accuracy.bound <= 1e-2
+
+
+def test_a_speed_below_the_limit_of_the_deflection_is_not_called_sufficient() -> None:
+    """At this speed the plate is still more curved than the sphere; at the usable one it is not."""
+    heavy: dict[str, Any] = {
+        "sphere": {
+            "radius": 0.002868, "mass": 4.077e-4, "youngs_modulus": 1.131e9, "poissons_ratio": 0.3,
+        },
+        "plate": {
+            "radius": 0.005807, "thickness": 3.507e-4, "youngs_modulus": 2.982e9,
+            "poissons_ratio": 0.1671, "density": 4124.0, "edge": "clamped",
+        },
+        "impact": {"speed": 5.387},
+        "effects": {"stretching": False},
+    }  # fmt: skip
+    with pytest.raises(SceneError, match="stretching") as error:
+        simulate(read(heavy))
+    limit = re.search(r"for this limit alone of at most ([\d.]+) m/s", str(error.value))
+    usable = re.search(r"\(about ([\d.]+) m/s for usable results\)", str(error.value))
+    assert limit
+    assert usable
+    with pytest.raises(SceneError, match="more curved"):
+        simulate(read(heavy | {"impact": {"speed": float(limit[1])}}))
+    assert simulate(read(heavy | {"impact": {"speed": float(usable[1])}})).model_error < 0.2

@@ -181,16 +181,11 @@ def _stiff_unloading(problem: DynamicProblem, time: float) -> StiffUnloadingErro
     """Return the error of a yielded contact that is not circular with so many modes."""
     modes = problem.contact.modes
     fewer = modes.first.size // 2
-    remedy = "reduce impact.speed, or set effects.plasticity = false for an elastic contact"
-    if fewer >= FEWEST_MODES:
-        # Fewer may fail too, or be too few for a tolerance.
-        remedy = f"try fewer modes without a tolerance, such as inertia.modes = {fewer}"
-    if modes.first.size < modes.omega.size:
-        remedy += ', or inertia.branches = "A0"'
     return StiffUnloadingError(
         f"the contact at {time:.6g} s has no solution, because the yielded contact unloads more "
         "stiffly than the short modes of the plate respond",
-        remedy,
+        fewer if fewer >= FEWEST_MODES else 0,
+        branched=modes.first.size < modes.omega.size,
     )
 
 

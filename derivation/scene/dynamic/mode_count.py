@@ -31,6 +31,12 @@ def branching(law: ContactLaw, branches: str) -> ContactLaw:
     return replace(law, model=replace(law.model, inertia=inertia))
 
 
+def with_modes(law: ContactLaw, count: int) -> ContactLaw:
+    """Return the law with a given number of modes, or with an automatic one for 0."""
+    inertia = replace(law.model.inertia, modes=count)
+    return replace(law, model=replace(law.model, inertia=inertia))
+
+
 def finer(law: ContactLaw, count: int) -> int:
     """Return the number of bending modes in the run after one with a number of them.
 
@@ -105,8 +111,7 @@ def check_resolving(law: ContactLaw) -> None:
     modes = law.model.inertia.modes
     if not modes or fast(law, modes):
         return
-    automatic = replace(law.model, inertia=replace(law.model.inertia, modes=0))
-    least = count_of(replace(law, model=automatic))
+    least = count_of(with_modes(law, 0))
     if least < MOST:
         remedy = f'increase inertia.modes to {2 * least}, set it to "auto", or remove the tolerance'
     else:

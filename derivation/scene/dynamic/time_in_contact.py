@@ -198,14 +198,22 @@ def _slower(law: ContactLaw, tolerance: float, limit: float, swing: float) -> st
 
     speed = rounded_down(speed_for(limit))
     low = rounded_down(speed_for(limit * math.sqrt(USABLE / FORCE)))  # of later contacts
-    if speed:
+
+    def simulable(speed: float) -> float:
+        """Return a speed, or 0 if it needs too many time steps."""
         slow = replace(law, model=replace(law.model, v0=speed))
         steps, most = _steps(slow, 2 * affordable(slow), tolerance, IN_CONTACT * swing)
-        speed = speed if steps <= most else 0.0
+        return speed if steps <= most else 0.0
+
+    speed = simulable(speed) if speed else 0.0
     if not speed:
         return " or a lighter sphere"
+    low = simulable(low) if low else 0.0
     usable = f" (about {low:.2g} m/s for usable results)" if low else ""
-    return f", a lighter sphere or an impact.speed of at most {speed:.2g} m/s{usable}"
+    return (
+        ", a lighter sphere or a lower impact.speed, for this limit alone of at most "
+        f"{speed:.2g} m/s{usable}"
+    )
 
 
 def _heaviness(law: ContactLaw) -> tuple[float, float]:

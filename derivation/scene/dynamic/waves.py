@@ -33,6 +33,7 @@ from derivation.scene.dynamic.reach import OutOfReachError, Reach
 from derivation.scene.dynamic.refinement import KEPT, TOLERANCE_FRACTION, Refinement
 from derivation.scene.dynamic.results import dynamic_impact_of
 from derivation.scene.dynamic.runs import LOOSE, WORK, Budget, time_tolerance
+from derivation.scene.dynamic.stiff_unloading import number_with_solution
 from derivation.scene.dynamic.stretched_shapes import with_enough_shapes, with_shape_error
 from derivation.scene.dynamic.time_in_contact import FEWER, check_deflected, check_long, nodes_for
 from derivation.scene.dynamic.wave_motion import DynamicImpact
@@ -77,10 +78,21 @@ def impact(
         If an impact on a plate that does not deflect exceeds the range of the law, the modes of the
         plate are too slow or too many, or the first contact cannot be computed to its end.
     """
+    try:
+        return _impact(law, goal, outputs, need, Budget(WORK))
+    except StiffUnloadingError as error:
+        chosen = bool(law.model.inertia.modes)
+        raise error.named(number_with_solution(law, error), chosen) from None
+
+
+def _impact(
+    law: ContactLaw, goal: float, outputs: tuple[str, ...], need: float, budget: Budget
+) -> DynamicImpact:
+    """Return the impact of `impact` within a budget of work."""
     if math.isfinite(need):
         check_resolving(law)
     check_long(law, time_tolerance(goal))
-    budget, reach, first = Budget(WORK), Reach(law, outputs, need), law.model.b
+    reach, first = Reach(law, outputs, need), law.model.b
     law, branches = with_enough_shapes(law, need), law.model.inertia.branches
     rough: DynamicImpact | None = None
     coarse: ImpactHistory | None = None
@@ -88,12 +100,9 @@ def impact(
         law, coarse = widened(law, budget)
     if math.isinf(need) and (few := not_usable(law, outputs)):
         return few
-    try:
-        if law.model.inertia.branches == "auto" and not law.viscous:
-            law, rough = _branched(law, goal, reach, budget)
-        run = Refinement(law, goal, reach, budget).impact(rough, coarse)
-    except StiffUnloadingError as error:
-        raise (error.of_chosen_modes() if law.model.inertia.modes else error) from None
+    if law.model.inertia.branches == "auto" and not law.viscous:
+        law, rough = _branched(law, goal, reach, budget)
+    run = Refinement(law, goal, reach, budget).impact(rough, coarse)
     while law.model.inertia.infinite_plate and wave_returned(run):
         law = wider(law, first, run)
         run = Refinement(law, goal, reach, budget).impact()

@@ -14,8 +14,10 @@ from derivation.scene.dynamic.contact_errors import rounded_down
 from derivation.scene.effects.effect import NO_BOUND
 from derivation.scene.errors import SceneError, Slower, ToleranceError
 from derivation.scene.input.settings import TIGHTEST
-from derivation.scene.measured.measurement import AGREES, UNITS, Measurement
-from derivation.scene.measured.rough_search import rough_value
+from derivation.scene.measured.measurement import UNITS, Measurement
+from derivation.scene.measured.narrowing import AGREES
+from derivation.scene.measured.rough_search import is_repeated, rough_value, searched_value
+from derivation.scene.measured.scan import value_near
 from derivation.scene.measured.specimen import measurement_of
 from derivation.scene.measured.trial import Trial
 from derivation.scene.quantity import digits_of, prefixed, rounded_up
@@ -69,6 +71,8 @@ class Fit(NamedTuple):
         plate inertia, where the tolerance of the measurement is `STATIC_RTOL`.
     contacts
         Number of contacts in the measurement.
+    repeated
+        Whether a value with which the sphere is hit again gives the restitution, too.
     """
 
     value: float
@@ -78,6 +82,7 @@ class Fit(NamedTuple):
     model: float
     parts: float
     contacts: int = 1
+    repeated: bool = False
 
 
 def fitted(scene: "Scene") -> "Scene":
@@ -140,19 +145,13 @@ def model_error_of(scene: "Scene") -> float:
 
 
 def remaining_of(scene: "Scene", rtol: float | None) -> float | None:
-    """Return the part of a tolerance that the error of a fitted constant leaves [1].
-
-    Raises
-    ------
-    SceneError
-        If nothing is left.
-    """
+    """Return the part of a tolerance that the error of a constant leaves [1]; an error if none."""
     if scene.measured is None or rtol is None:
         return rtol
     fit = _fit_of(scene)
     rest = remaining(rtol, fit.error)
-    if rest is None or rest < TIGHTEST:
-        least = fit.parts * fit.bound or fit.error
+    if rest is None or not rest >= TIGHTEST:
+        least = fit.error if math.isinf(fit.error) else fit.parts * fit.bound or fit.error
         raise _inaccurate(fit.error, rtol, ENOUGH * least)
     return rest
 
@@ -172,13 +171,19 @@ def in_words(scene: "Scene") -> str:
 
 
 def ambiguity_warnings(scene: "Scene") -> tuple[str, ...]:
-    """Warn that other constants may give the restitution, if a measurement has several contacts."""
+    """Warn of other constants with the same restitution, if a measurement has several contacts."""
     wanted = scene.measured
-    if wanted is None or (contacts := _fit_of(scene).contacts) == 1:
+    if wanted is None:
+        return ()
+    fit = _fit_of(scene)
+    why = "a sphere that loses more energy is hit again by the plate"
+    if fit.contacts > 1:
+        why = f"the measured impact has {fit.contacts} contacts"
+    elif not fit.repeated:
         return ()
     text = (
-        f"the measured impact has {contacts} contacts: other values of plate.{wanted.solve_for} "
-        "may have the measured restitution, too, but other results, which no error bound includes"
+        f"{why}: other values of plate.{wanted.solve_for} may have the measured restitution, too, "
+        "but other results, which no error bound includes"
     )
     return (text,)
 
@@ -257,7 +262,7 @@ def _with_inertia(measured: Measurement, rtol: float | None) -> Fit:
     rtol
         Tolerance of the results [1].
     """
-    first = rough_value(measured.to(LOOSE))
+    first = rough = rough_value(measured.to(LOOSE))
     slope, change = (0.0, 0.0) if first is None else _sensitivities(measured, first)
     if not slope:  # with the rough value no energy is lost, but with the accurate one it may be
         first, change = None, 0.0
@@ -271,14 +276,27 @@ def _with_inertia(measured: Measurement, rtol: float | None) -> Fit:
         least, named = ratio * unmet.error, ENOUGH * parts * unmet.error
         raise _inaccurate(least, rtol, named) from None
     if found is None:
-        value = accurate.value(CLOSE["dynamic"])
+        value = _accurate_value(accurate, rough)
         slope, change = _sensitivities(measured, value)
         ratio = _ratio(change)
         found = value, accurate.simulated(value)
     value, trial = found
     error, model = _error_in(measured, trial), float(trial.model_errors["restitution"])
     constant = _error_over_slope(error + model, slope)
-    return Fit(value, ratio * error, trial.bound, constant, change * model, parts, trial.contacts)
+    repeated = trial.contacts == 1 and is_repeated(measured.to(LOOSE), value, trial)
+    contacts = trial.contacts, repeated
+    return Fit(value, ratio * error, trial.bound, constant, change * model, parts, *contacts)
+
+
+def _accurate_value(accurate: Measurement, rough: float | None) -> float:
+    """Return the value that accurate simulations find by themselves, or near that of few modes."""
+    close = CLOSE["dynamic"]
+    try:
+        return accurate.value(close)
+    except SceneError as rejected:
+        if rough is None:
+            rough = searched_value(accurate, rejected)
+        return value_near(accurate, rough, close, rejected)
 
 
 def _ratio(change: float) -> float:
@@ -367,14 +385,14 @@ def _inaccurate(error: float, rtol: float, named: float) -> SceneError:
     rtol, named
         Their tolerance, and one that they meet [1].
     """
-    if not named < 1.0:
-        return SceneError(
-            "accuracy.rtol: expected no tolerance, because the constant from the measured "
-            f"restitution causes an error of {rounded_up(error)}, got {rtol:g}; remove the "
-            "tolerance, or give the constant instead of [measured]"
-        )
+    why = f"the constant from the measured restitution causes an error of {rounded_up(error)}"
+    if math.isinf(error):
+        why = "the measured restitution does not determine the constant"
+    expected, larger = "no tolerance", "remove the tolerance"
+    if named < 1.0:
+        expected = f"about {rounded_up(named)} or more"
+        larger = f"increase the tolerance to {rounded_up(named)}"
     return SceneError(
-        f"accuracy.rtol: expected about {rounded_up(named)} or more, because the constant from the "
-        f"measured restitution causes an error of {rounded_up(error)}, got {rtol:g}; increase the "
-        f"tolerance to {rounded_up(named)}, or give the constant instead of [measured]"
+        f"accuracy.rtol: expected {expected}, because {why}, got {rtol:g}; {larger}, or give the "
+        "constant instead of [measured]"
     )

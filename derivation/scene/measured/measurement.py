@@ -2,7 +2,8 @@
 
 On a thick block the solution is unique: restitution decreases with decreasing yield stress and with
 increasing retardation time. On a plate that bends, an infinite retardation time leaves an elastic
-plate; there may be two solutions, and the one with the smaller retardation time is returned.
+plate; there may be two solutions, and the one with the smaller retardation time is returned. If the
+sphere is hit again, there may be more of them (see `scan`).
 """
 
 import math
@@ -14,7 +15,9 @@ from derivation.scene.effects import BY_NAME
 from derivation.scene.errors import HeldError, SceneError, Slower, WideContactError
 from derivation.scene.input.body_materials import body_of, own_materials
 from derivation.scene.input.settings import TIGHTEST
+from derivation.scene.measured.narrowing import ROUGH, near_solution, solution
 from derivation.scene.measured.trial import (
+    ExceedsError,
     IncompleteTrialError,
     Point,
     Trial,
@@ -22,7 +25,6 @@ from derivation.scene.measured.trial import (
     WideTrialError,
     vertex,
 )
-from derivation.scene.numerics.crossing import rise
 
 if TYPE_CHECKING:
     from derivation.scene.scene import Scene
@@ -46,12 +48,10 @@ SHORTEST = 0.05
 """Shortest such step in the logarithm of the value, beyond which a contact is too wide."""
 RISING = 3
 """Number of steps in which restitution increases, from which it has passed its smallest value."""
-ROUGH, OF_LOSS, LEAST = 1e-2, 0.2, 1e-4
-"""Relative difference from the measured restitution that ends a rough search; the same over the
-relative difference between the measured restitution and that without loss, which is small if the
-restitution hardly determines the constant; the smallest such difference."""
-AGREES = 0.1
-"""Relative difference from the measured restitution that suffices, over the error bound."""
+OF_LOSS, LEAST = 0.2, 1e-4
+"""Relative difference from the measured restitution that ends a rough search, over that between the
+measured restitution and the one without loss, which is small if the restitution hardly determines
+the constant; the smallest such difference."""
 CLEARLY = 1.01
 """Contact radius over the largest one above which the contact is too wide with more modes, too."""
 STATIC_RTOL = 1e-9
@@ -115,6 +115,10 @@ class Measurement:
             self._trials[value, within] = self._simulated(value, within)
         return self._trials[value, within]
 
+    def trials(self) -> list[Trial]:
+        """Return the results of all simulations until now."""
+        return list(self._trials.values())
+
     def _simulated(self, value: float | None, within: bool) -> Trial:
         from derivation.scene.contact_law.limits import check_radius
         from derivation.scene.dynamic.runs import with_few_modes
@@ -125,7 +129,8 @@ class Measurement:
         rtol, selected = selected_effects(self.scene(value))
         law, bound, errors, contacts = selected.law, ROUGH, dict[str, float](), 1
         if self.part and law.dynamic:
-            numbers = with_few_modes(law, self.part, self.work).numbers
+            few = with_few_modes(law, self.part, self.work)
+            numbers, contacts = few.numbers, len(few.inertia.contacts)
         else:
             within = within or self.static
             numbers, accuracy = solve_selected(selected, rtol, within=within)
@@ -187,7 +192,7 @@ class Measurement:
         named, how = f"{most:.{3 if margin else 6}g}", ""
         if self.part:
             named, how = f"about {lossless.restitution:.3g}", " (estimated with few modes)"
-        raise SceneError(
+        raise ExceedsError(
             f"measured.restitution: expected less than {named}, the restitution without a "
             f"plate.{self.key}{how}, got {self.goal:.6g}; correct measured.restitution or "
             "measured.target"
@@ -211,18 +216,14 @@ class Measurement:
         """
         if not self.goal < lossless.restitution:  # it may be unknown
             raise UnreachedError("", -math.inf, 0.0)
-        reduced = 1.0 - self.goal / lossless.restitution
-        close = max(LEAST, min(ROUGH, OF_LOSS * reduced))
+        close = self.close_enough(lossless)
         low, high = self._bracket(lossless, close)
-        while True:
-            near = min(low, high, key=lambda point: abs(point.above))
-            if abs(near.above) <= close * self.goal or abs(high.x - low.x) <= ROUGH:
-                return math.exp(near.x)
-            x = (low.x * high.above - high.x * low.above) / (high.above - low.above)
-            # Not at an end of the interval again, near which the restitution is not linear.
-            margin = 0.1 * (high.x - low.x)
-            point = self._point(min(max(x, low.x + margin), high.x - margin))
-            low, high = (point, high) if point.above * low.above > 0.0 else (low, point)
+        return math.exp(near_solution(self.point, low, high, close * self.goal).x)
+
+    def close_enough(self, lossless: Trial) -> float:
+        """Return the relative difference from the measured restitution that ends a rough search."""
+        reduced = abs(1.0 - self.goal / lossless.restitution)
+        return max(LEAST, min(ROUGH, OF_LOSS * reduced))
 
     def value(self, close: float) -> float:
         """Return a value at which the restitution agrees with the measured one within its error.
@@ -233,17 +234,9 @@ class Measurement:
             Relative accuracy of the value that suffices [1].
         """
         low, high = self._bracket(self.lossless())
-        sign = math.copysign(1.0, high.above)
+        return solution(self.point, low, high, self.goal, close)
 
-        def above(x: float) -> float:
-            """Return an increasing difference from the measured restitution; 0 within its error."""
-            point = self._point(x)
-            error = point.above + self.goal - point.least
-            return 0.0 if abs(point.above) <= AGREES * error else sign * point.above
-
-        return math.exp(rise(above, low.x, high.x, close))
-
-    def _point(self, x: float) -> Point:
+    def point(self, x: float) -> Point:
         """Simulate with the trial value exp(x)."""
         try:
             trial = self.simulated(math.exp(x))
@@ -275,7 +268,7 @@ class Measurement:
         if self.key == "yield_stress":
             return math.log(YIELDS * lossless.max_pressure * min(ratio, 1.0) ** POWER)
         early = math.log(EARLY * lossless.contact_time)
-        loss = 1.0 - (self._point(early).above + self.goal) / lossless.restitution
+        loss = 1.0 - (self.point(early).above + self.goal) / lossless.restitution
         if ratio >= 1.0 or not 0.0 < loss < 1.0:
             return early
         return early + max(0.0, math.log(UNDERESTIMATE * math.log(ratio) / math.log1p(-loss)))
@@ -297,7 +290,7 @@ class Measurement:
         """
         first = self._first(lossless)
         more = -math.log(FACTOR) if self.key == "yield_stress" else math.log(FACTOR)
-        now, rising = self._point(first), 0
+        now, rising = self.point(first), 0
         if abs(now.above) < close * self.goal:
             return now, now
         # Towards a larger energy loss if the restitution is too large, else towards a smaller one.
@@ -319,7 +312,7 @@ class Measurement:
             # increases.
             rising += 1
             if rising == 1 and len(points) > 2:
-                lowest = self._point(vertex(*points[-3:]))
+                lowest = self.point(vertex(*points[-3:]))
                 if lowest.above <= 0.0:
                     low, high = sorted((now if back else points[-3], lowest))
                     return low, high
@@ -349,7 +342,7 @@ class Measurement:
             If it cannot be computed, with the smallest restitution of the others.
         """
         try:
-            return self._point(points[-1].x + step)
+            return self.point(points[-1].x + step)
         except WideTrialError:
             if abs(step) < SHORTEST:
                 raise
@@ -367,7 +360,7 @@ class Measurement:
         lowest = min(points, key=lambda point: point.above)
         least, smallest = min(point.least for point in points), self.goal + lowest.above
         if smallest < lossless.restitution:
-            return self._below(smallest, least, math.exp(lowest.x))
+            return self.below(smallest, least, math.exp(lowest.x))
         return UnreachedError(
             f"measured.restitution: expected about {lossless.restitution:.3g}, the restitution "
             f"without a plate.{self.key}, which no value reduces, got {self.goal:.6g}; correct "
@@ -384,9 +377,9 @@ class Measurement:
         trial = self.simulated(value)
         least = trial.restitution * (1.0 - trial.bound)
         if self.goal < (1.0 - margin) * least:
-            raise self._below(trial.restitution, least, value)
+            raise self.below(trial.restitution, least, value)
 
-    def _below(self, smallest: float, least: float, value: float) -> UnreachedError:
+    def below(self, smallest: float, least: float, value: float) -> UnreachedError:
         """Return the error of a restitution below the smallest one, which a constant gives."""
         return UnreachedError(
             f"measured.restitution: expected at least about {smallest:.3g}, the smallest "

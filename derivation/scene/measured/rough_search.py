@@ -10,6 +10,7 @@ from dataclasses import replace
 
 from derivation.scene.errors import SceneError
 from derivation.scene.measured.measurement import OF_LOSS, Measurement
+from derivation.scene.measured.scan import repeats, searched
 from derivation.scene.measured.trial import (
     IncompleteTrialError,
     Trial,
@@ -50,6 +51,55 @@ def rough_value(loose: Measurement) -> float | None:
         If the simulations show that no value gives the restitution.
     """
     few, half = (replace(loose, part=part) for part in (PART, HALF))
+    try:
+        return _steady_value(loose, few, half)
+    except IncompleteTrialError:
+        raise
+    except SceneError as rejected:
+        return searched_value(half, rejected)
+
+
+def searched_value(measurement: Measurement, rejected: SceneError) -> float:
+    """Return a value near the solution if the restitution does not depend on it steadily.
+
+    Parameters
+    ----------
+    measurement
+        The measurement.
+    rejected
+        The error of a search that expects a steady dependence.
+
+    Raises
+    ------
+    SceneError
+        If no value gives the restitution.
+    """
+    half = measurement if measurement.part == HALF else replace(measurement, part=HALF)
+    whole = _lossless(half)
+    if whole is None:
+        raise rejected
+    return searched(half, whole, rejected)
+
+
+def is_repeated(loose: Measurement, value: float, found: Trial) -> bool:
+    """Return whether a value with a larger loss has the restitution of a value, too.
+
+    Parameters
+    ----------
+    loose
+        The measurement with a large tolerance.
+    value, found
+        The value and its results.
+    """
+    return repeats(replace(loose, part=HALF), value, found)
+
+
+def _steady_value(loose: Measurement, few: Measurement, half: Measurement) -> float | None:
+    """Return a value near the solution if the restitution depends on the constant steadily.
+
+    The parameters are the measurement with a large tolerance, with `PART` and `HALF` of the modes;
+    the rest is as in `rough_value`.
+    """
     cheap = _lossless(few)
     if cheap is not None and not loose.goal < FAR * cheap.restitution:
         if quick := _lossless(replace(half, work=QUICK)):

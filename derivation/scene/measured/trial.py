@@ -25,6 +25,10 @@ class UnreachedError(SceneError):
         return self.text
 
 
+class ExceedsError(SceneError):
+    """The error of a restitution above that without energy loss by the constant."""
+
+
 class WideTrialError(SceneError):
     """The error of a restitution for which the contact is clearly too wide.
 

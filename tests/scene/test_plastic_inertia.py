@@ -225,7 +225,6 @@ def test_fewer_modes_after_a_stiff_unloading_are_tried_without_a_tolerance() -> 
         "impact": {"speed": 6.744},
         "effects": {"stretching": False},
         "inertia": {"branches": "A0"},
-        "effects": {"stretching": False},
     }  # fmt: skip
     with pytest.raises(SceneError, match="fewer modes without a tolerance") as rejected:
         simulate(read(scene | {"accuracy": {"rtol": 0.01}}))

@@ -268,8 +268,9 @@ def selected_effects(
         tolerance = selection_tolerance(remaining_of(scene, rtol))
     selected = decide(model, wanted, tolerance, outputs, rtol is None, growth)
     if _needs_stretching(scene, rtol, selected):
-        inertia = replace(model.inertia, stretching=True)
-        model = replace(model, inertia=inertia)
+        from derivation.scene.dynamic.stretching_needed import stretched
+
+        model = stretched(selected.law).model
         selected = decide(model, wanted, tolerance, outputs, rtol is None, growth)
     return rtol, selected
 

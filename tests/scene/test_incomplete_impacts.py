@@ -99,6 +99,17 @@ def test_contacts_before_a_later_error_are_kept(capsys: Any, tmp_path: Path) -> 
     assert main(["simulate", str(file)]) == 0
 
 
+def test_a_quasi_static_plate_is_not_recommended_for_a_plate_that_stretches(
+    capsys: Any, tmp_path: Path
+) -> None:
+    file = tmp_path / "phone.toml"
+    file.write_text(PHONE.replace("stretching = false", "stretching = true"))
+    assert main(["simulate", str(file)]) == 2
+    shown = " ".join(capsys.readouterr().err.split())
+    assert "more curved than the sphere; use a smaller sphere or a thicker plate" in shown
+    assert "inertia = false" not in shown
+
+
 def test_error_with_partial_results_can_be_pickled() -> None:
     restored = pickle.loads(pickle.dumps(IncompleteError("it ends", "correct it")))
     assert str(restored) == "effects.inertia: it ends; correct it"

@@ -1,15 +1,20 @@
 """Stretching is included automatically where the results of an impact require it."""
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 import pytest
 
 from derivation.scene import Result, SceneError, explain, load, read, simulate
+from derivation.scene.dynamic import stretching_error as module
+from derivation.scene.dynamic import stretching_needed as decision
 from derivation.scene.dynamic.stretching_error import deflections_of, stretching_error
-from derivation.scene.dynamic.stretching_needed import NEEDED
+from derivation.scene.dynamic.stretching_needed import NEEDED, needs_stretching
 from derivation.scene.dynamic.time_in_contact import largest_deflection
 from derivation.scene.impact import selected_effects
+from derivation.scene.measured import measured as measured_constant
+from derivation.scene.measured.measured import Fit
 from derivation.scene.measured.specimen import measurement_of
 from derivation.scene.output import map as map_
 from derivation.scene.rows.rows import solve
@@ -62,6 +67,38 @@ def test_only_requested_results_count() -> None:
     one = changed(scene, "accuracy", outputs=["max_indentation"])
     assert explain(read(scene)).effects.law.stretches
     assert not explain(read(one)).effects.law.stretches
+
+
+@pytest.fixture
+def undecided() -> Iterator[None]:
+    """Forget former decisions before and after a test that changes how they are made."""
+    needs_stretching.cache_clear()
+    yield
+    needs_stretching.cache_clear()
+
+
+@pytest.mark.usefixtures("undecided")
+def test_stretching_that_hardly_reduces_the_error_is_not_included(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    scene = read(changed(PANE, "impact", speed=FAST))
+    assert selected_effects(scene)[1].law.stretches
+    monkeypatch.setattr(module, "IN_PLANE", 1e3 * module.IN_PLANE)
+    needs_stretching.cache_clear()
+    assert not selected_effects(scene)[1].law.stretches
+
+
+@pytest.mark.usefixtures("undecided")
+def test_rough_estimate_decides_if_few_modes_have_no_solution(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def fail(*_: object) -> None:
+        raise SceneError("no solution")
+
+    monkeypatch.setattr(decision, "with_few_modes", fail)
+    for speed, stretches in (FAST, False), (30.0, True):
+        scene = read(changed(PANE, "impact", speed=speed))
+        assert selected_effects(scene)[1].law.stretches == stretches
 
 
 def test_explanation_states_the_reason() -> None:
@@ -164,3 +201,17 @@ def test_measured_constant_belongs_to_a_plate_that_stretches_like_the_result(
     # With this value so much energy is lost that the plate alone would not stretch.
     slow = changed(measured.scene(1e-5).to_json(), "effects", stretching="auto")
     assert not selected_effects(read(slow))[1].law.stretches
+
+
+def test_result_of_a_measurement_stretches_like_the_measured_plate(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    value = 1e-5
+    monkeypatch.setattr(measured_constant, "_fit", lambda _: Fit(value, 0, 0, 0, 0, 2))
+    scene = changed(PANE, "impact", speed=1.5)
+    known = changed(scene, "plate", retardation_time=value)
+    assert not selected_effects(read(known))[1].law.stretches
+    wanted = {"restitution": 0.6, "solve_for": "retardation_time", "target": "plate"}
+    law = selected_effects(read(scene | {"measured": wanted}))[1].law
+    assert law.viscous
+    assert law.stretches

@@ -144,8 +144,7 @@ def force_error(law: ContactLaw, motion: "DynamicImpact", deflections: Deflectio
     """Return the relative errors of forces by what the model of stretching neglects."""
     model, (steepness, deflection) = law.model, motion.steepness
     part = deflections.largest / deflection if deflection else 0.0
-    nu = model.poissons_ratio
-    fastest = math.sqrt(2.0 * model.mu / ((1.0 - nu) * model.density))
+    fastest = math.sqrt(model.modulus / model.density)
     transit = 2.0 * float(model.h) / (fastest * motion.contact_time)
     largest = float(stretching(model, deflections.largest))
     return ForceError(ROTATION * part * part * steepness, IN_PLANE * transit, largest)

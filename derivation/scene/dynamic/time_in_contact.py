@@ -209,10 +209,10 @@ def _slower(law: ContactLaw, tolerance: float, limit: float, swing: float) -> st
     if not speed:
         return " or a lighter sphere"
     low = simulable(low) if low else 0.0
-    usable = f" (about {low:.2g} m/s for usable results)" if low else ""
+    usable = f", about {low:.2g} m/s for usable results" if low else ""
     return (
-        ", a lighter sphere or a lower impact.speed, for this limit alone of at most "
-        f"{speed:.2g} m/s{usable}"
+        f", a lighter sphere or a lower impact.speed (at most {speed:.2g} m/s for this limit alone"
+        f"{usable})"
     )
 
 

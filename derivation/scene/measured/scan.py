@@ -1,4 +1,4 @@
-"""Searches all values of the constant of a measurement with several contacts.
+"""Searches a wide range of the constant of a measurement with several contacts.
 
 A light sphere on a thin plate is hit again by the vibrating plate. Its restitution then depends on
 the phase of this vibration: in random scenes it increased and decreased several times with the

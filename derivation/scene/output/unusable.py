@@ -113,7 +113,7 @@ def _neglected(result: "Result") -> str:
     """Return what the model neglects of the large deflection, in words."""
     law = result.effects.law
     if law.stretches:
-        return ", and its slope is large"
+        return ", for which the model of its stretching is too simple"
     if not law.dynamic:
         return " and stretches, which the model without inertia of the plate neglects"
     if law.model.inertia.infinite_plate:

@@ -176,15 +176,19 @@ def test_rows_of_a_sweep_are_equal_to_single_simulations() -> None:
     assert [text.endswith("stretching") for text in rows.effects] == [False, True]
 
 
-def test_map_does_not_call_it_enabled_in_the_scene(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(map_, "THICKNESSES", np.array([0.02, 0.1]))
-    monkeypatch.setattr(map_, "RADII", np.array([0.1, 0.4]))
+def test_map_draws_the_other_effects_as_without_stretching(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Only the scene itself needs stretching, and with it inertia, not every point of the map."""
+    monkeypatch.setattr(map_, "THICKNESSES", np.array([0.02, 0.1, 2.0]))
+    monkeypatch.setattr(map_, "RADII", np.array([1e-3, 0.1, 0.4]))
+    one, other = (map_.grid(at(FAST, **more), 0.1).ratios for more in ({}, {"stretching": False}))
+    assert one.keys() == other.keys()
+    assert np.nanmin(one["inertia"]) < 1.0 < np.nanmax(one["inertia"])
 
     def legend(speed: float) -> str:
         [shown] = map_.figure(at(speed), 0.1).legends
         return " ".join(label.get_text() for label in shown.get_texts())
 
-    assert "stretching (as in this scene)" in legend(FAST)
+    assert "this scene, which needs stretching" in legend(FAST)
     assert "stretching" not in legend(SLOW)
 
 

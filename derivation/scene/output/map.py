@@ -13,7 +13,7 @@ import numpy as np
 
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import energy_of
-from derivation.scene.effects import BY_NAME, EFFECTS, PAPER
+from derivation.scene.effects import EFFECTS, PAPER
 from derivation.scene.errors import SceneError
 from derivation.scene.model import Model
 from derivation.scene.output.plot import saved
@@ -31,9 +31,7 @@ THICKNESSES = np.geomspace(1e-3, 10.0, 25)
 RADII = np.geomspace(1e-3, 6.0, 25)
 """a/h of the map."""
 COLOURS = ("#1f4e79", "#b35806", "#1b7837", "#762a83", "#b2182b", "#01665e", "#e7298a")
-CHOICES: dict[str | bool, str] = {
-    "auto": "", True: " (enabled in the scene)", False: " (disabled in the scene)",
-}  # fmt: skip
+CHOICES = {"auto": "", True: " (enabled in the scene)", False: " (disabled in the scene)"}
 """Remark in the legend by the choice of the scene."""
 OUTSIDE = "0.88"
 """Grey of points outside the range of the contact law."""
@@ -63,7 +61,7 @@ class Grid:
 
 def drawn(result: Result) -> list[str]:
     """Return the names of the effects that the selection may include or omit."""
-    model = result.model
+    model = _mapped(result)
     return [
         e.name
         for e in EFFECTS
@@ -73,7 +71,7 @@ def drawn(result: Result) -> list[str]:
 
 def grid(result: Result, rtol: float) -> Grid:
     """Select the effects for all thicknesses and contact radii, at a tolerance [1]."""
-    model, wanted = result.model, result.scene.effects.model_dump()
+    model, wanted = _mapped(result), result.scene.effects.model_dump()
     eta, wide = model.eta, result.max_contact_radius / model.h
     thicknesses = np.unique(np.append(THICKNESSES, eta))
     # The range includes the contact radius of the scene.
@@ -102,6 +100,14 @@ def grid(result: Result, rtol: float) -> Grid:
                 for name in names:
                     ratios[name][row, column] = _ratio(selection, name, rtol)
     return Grid(thicknesses, radii, ratios)
+
+
+def _mapped(result: Result) -> Model:
+    """Return the model at the points: they do not stretch only because the scene needs it."""
+    model = result.model
+    if not result.scene.effects.may_stretch:
+        return model
+    return replace(model, inertia=replace(model.inertia, stretching=False))
 
 
 def _law(model: Model) -> ContactLaw:
@@ -151,7 +157,7 @@ def figure(result: Result, rtol: float) -> "Figure":
     )
     colours, constant = iter(COLOURS), dict[str, list[str]]()
     for names, ratio in lines(map_grid).items():
-        label = ", ".join(name + _remark(name, wanted[name]) for name in names)
+        label = ", ".join(name + CHOICES[wanted[name]] for name in names)
         finite = ratio[np.isfinite(ratio)]
         if not finite.size or finite.min() > 1.0 or finite.max() < 1.0:
             where = "everywhere" if finite.size and finite.min() > 1.0 else "nowhere"
@@ -160,9 +166,9 @@ def figure(result: Result, rtol: float) -> "Figure":
         _line(axes, map_grid, ratio, next(colours), label)
     for where, labels in constant.items():
         axes.plot([], [], linestyle="none", label=f"{where}: {', '.join(labels)}")
-    axes.plot(
-        *point, marker="*", markersize=14, color="black", linestyle="none", label="this scene"
-    )
+    needed = result.scene.effects.may_stretch and result.effects.law.stretches
+    scene = f"this scene{', which needs stretching' if needed else ''}"
+    axes.plot(*point, marker="*", markersize=14, color="black", linestyle="none", label=scene)
     axes.set(xlabel="half-thickness / plate radius, $h/b$ [1]")
     axes.set(ylabel="largest contact radius / half-thickness, $a/h$ [1]")
     axes.set_xlim(min(THICKNESSES[0], point[0] / 2), max(THICKNESSES[-1], point[0] * 2))
@@ -176,11 +182,6 @@ def figure(result: Result, rtol: float) -> "Figure":
     handles.append(Patch(facecolor=OUTSIDE, label="outside the range of the contact law"))
     made.legend(handles=handles, loc="outside lower center", fontsize=8, frameon=False)
     return made
-
-
-def _remark(name: str, choice: str | bool) -> str:
-    """Return a remark on the choice of an effect; the tolerance does not decide on all of them."""
-    return " (as in this scene)" if choice == "auto" and BY_NAME[name].cause else CHOICES[choice]
 
 
 def _line(axes: "Axes", map_grid: Grid, ratio: Array, colour: str, label: str) -> None:

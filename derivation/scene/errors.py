@@ -96,7 +96,7 @@ class IncompleteError(SceneError):
 
 
 class EndlessError(IncompleteError):
-    """The error of a contact that takes more time steps than are allowed."""
+    """The error of a contact or a flight that takes more time steps than are allowed."""
 
 
 class StiffUnloadingError(IncompleteError):

@@ -25,7 +25,7 @@ from derivation.scene.dynamic.separation import last_element, released
 from derivation.scene.dynamic.stretched_flight import FlightPiece, flight
 from derivation.scene.dynamic.time_element import LOST, C, P, TimeElement
 from derivation.scene.dynamic.yield_events import UncutError, next_branch
-from derivation.scene.errors import IncompleteError
+from derivation.scene.errors import EndlessError, IncompleteError
 from derivation.scene.numerics.collocation import NEXT, ONSET
 
 FIRST, SHORTEST = 0.3, 1e-13
@@ -86,6 +86,8 @@ class ImpactHistory:
         Work in the units of `WORK`; an upper bound if the simulation is incomplete.
     tolerance
         Tolerance of the time elements [1].
+    endless
+        Whether it is incomplete because it takes more time steps than are allowed.
     """
 
     problem: DynamicProblem
@@ -94,6 +96,7 @@ class ImpactHistory:
     remedy: str = ""
     work: float = 0.0
     tolerance: float = TOLERANCE
+    endless: bool = False
 
     @property
     def complete(self) -> bool:
@@ -155,7 +158,9 @@ def impact_history(
         except IncompleteError as end:
             if not runs:
                 raise
-            return ImpactHistory(problem, tuple(runs), end.why, str(end.remedy), work, tolerance)
+            why = end.why, str(end.remedy)
+            endless = isinstance(end, EndlessError)
+            return ImpactHistory(problem, tuple(runs), *why, work, tolerance, endless)
         t, radius = touching.end + flown.wait, flown.radius
         state = flown.end or problem.flown(after, flown.wait)
         if radius:

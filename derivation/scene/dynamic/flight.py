@@ -6,7 +6,7 @@ import numpy as np
 
 from derivation.scene.dynamic.oscillators import FreeMotion
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
-from derivation.scene.errors import IncompleteError
+from derivation.scene.errors import EndlessError
 from derivation.scene.numerics.crossing import rise
 from generated.arrays import Double as Array
 
@@ -43,7 +43,7 @@ def next_contact(
 
     Raises
     ------
-    IncompleteError
+    EndlessError
         If the next contact is not found, nor excluded, within `BLOCKS` blocks or the largest work.
     """
     omega, state, begin = problem.omega, after, 0.0
@@ -83,9 +83,9 @@ def next_contact(
     raise side_by_side(problem, begin)
 
 
-def side_by_side(problem: DynamicProblem, t: float) -> IncompleteError:
+def side_by_side(problem: DynamicProblem, t: float) -> EndlessError:
     """Return the error of a flight that has not ended after a time."""
-    return IncompleteError(
+    return EndlessError(
         f"sphere and plate moved side by side without contact for {problem.T * t:.6g} s, the limit",
         "use a thicker plate or a lighter sphere, or set effects.inertia = false for a "
         "quasi-static plate",

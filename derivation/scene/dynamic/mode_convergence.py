@@ -241,6 +241,15 @@ def largest_change(one: DynamicImpact, other: DynamicImpact) -> DynamicImpact:
     return replace(one, inertia=replace(one.inertia, mode_convergence=change, first_change=first))
 
 
+def largest_error(one: DynamicImpact, other: DynamicImpact) -> DynamicImpact:
+    """Return a run with the larger changes and ripples of two comparisons with coarser runs."""
+    found = largest_change(one, other)
+    time, force, radius = map(max, one.inertia.ripple_error, other.inertia.ripple_error)
+    jump = max(one.inertia.jump, other.inertia.jump)
+    inertia = replace(found.inertia, jump=jump, ripple_error=(time, force, radius))
+    return replace(found, inertia=inertia)
+
+
 def without_estimate(found: DynamicImpact) -> DynamicImpact:
     """Return a run without an error estimate for its omitted modes."""
     unknown = replace(found.inertia, mode_convergence=UNKNOWN, earlier_change=NONE)

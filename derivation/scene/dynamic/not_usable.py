@@ -47,5 +47,5 @@ def not_usable(law: ContactLaw, outputs: Sequence[str]) -> DynamicImpact | None:
 
 def has_few_modes(motion: DynamicImpact) -> bool:
     """Return whether `not_usable` returned an impact; others have at least twice as many modes."""
-    given = motion.law.model.inertia.modes
+    given = motion.law.model.inertia.modes or motion.inertia.slow
     return not given and 2 * motion.inertia.modes < count_of(motion.law)

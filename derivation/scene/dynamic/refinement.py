@@ -18,6 +18,7 @@ from derivation.scene.dynamic.mode_convergence import (
     echoes_matter,
     jump_matters,
     largest_change,
+    largest_error,
     nearly_meets,
     unreachable,
     without_estimate,
@@ -307,10 +308,5 @@ class Refinement:
             if follows and not self._enough_modes(compared[0], work):
                 return None
         quartered, halved = compared
-        found = largest_change(quartered, halved)
-        if max(found.inertia.mode_convergence) >= 1.0:
-            return None, halved
-        time, force, radius = map(max, quartered.inertia.ripple_error, halved.inertia.ripple_error)
-        jump = max(quartered.inertia.jump, halved.inertia.jump)
-        inertia = replace(found.inertia, jump=jump, ripple_error=(time, force, radius))
-        return replace(run, inertia=inertia), halved
+        found = largest_error(quartered, halved)
+        return (None if max(found.inertia.mode_convergence) >= 1.0 else found), halved

@@ -13,7 +13,7 @@ from derivation.scene.dynamic.mode_convergence import unchecked
 from derivation.scene.dynamic.mode_count import MODES, branching, count_of
 from derivation.scene.dynamic.reach import OutOfReachError, Reach
 from derivation.scene.dynamic.results import dynamic_impact_of
-from derivation.scene.dynamic.time_in_contact import FEWER, check_long, nodes_for
+from derivation.scene.dynamic.time_in_contact import FEWER, nodes_for, slow_count
 from derivation.scene.dynamic.wave_motion import DynamicImpact
 from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.errors import IncompleteError
@@ -102,7 +102,7 @@ def with_few_modes(law: ContactLaw, part: float, work: float = WORK) -> DynamicI
     count = count_of(lowest)
     count = min(max(min(count, FEWEST), round(part * count)), MODES)
     with one_thread(), np.errstate(all="ignore"):
-        check_long(lowest, time_tolerance(LOOSE))
+        count = min(count, slow_count(lowest, time_tolerance(LOOSE)) or count)
         return run_with(lowest, count, Budget(min(work, WORK)), time_tolerance(LOOSE), FEWER)
 
 

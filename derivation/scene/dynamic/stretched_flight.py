@@ -146,7 +146,7 @@ def flight(problem: DynamicProblem, n: int, after: ImpactState, radius: float, m
 
     Raises
     ------
-    IncompleteError
+    EndlessError
         If the flight needs more elements.
     """
     parts, x, state, pieces = FlightProblem(problem), BEGIN, after, list[FlightPiece]()

@@ -16,7 +16,7 @@ from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import contact_sequence
 from derivation.scene.dynamic.contact_errors import HEAVY, rounded_down
 from derivation.scene.dynamic.modal import Modes, plate_of
-from derivation.scene.dynamic.mode_count import affordable, branching, count_of
+from derivation.scene.dynamic.mode_count import FEWEST, affordable, branching, count_of
 from derivation.scene.dynamic.next_element import PHASE
 from derivation.scene.dynamic.problem import DynamicProblem
 from derivation.scene.dynamic.stretching_error import FORCE, USABLE
@@ -43,6 +43,9 @@ TIMES = 801
 TOUCHING = 0.4
 """Least sum of all contacts over the time in which the attached sphere stops; random scenes with a
 sphere of at least `LIGHTEST` times the mass of the first mode have at least 0.51."""
+QUICK, MORE = 4e6, 1.25
+"""Largest expected work of a run with slow modes: a few seconds; ratio of the numbers of modes that
+are tried."""
 LIGHTEST = 0.05
 """Sphere mass over mass of the first mode below which contacts may be shorter than that."""
 
@@ -113,31 +116,64 @@ def static_deflection(law: ContactLaw) -> float:
     return law.model.gravity * (_heaviness(law)[1] / math.pi) ** 2
 
 
-def check_long(law: ContactLaw, tolerance: float) -> None:
-    """Reject a sphere that stays on the plate for more time steps than are allowed.
+def slow_count(law: ContactLaw, tolerance: float) -> int:
+    """Return the number of modes for an impact that lasts too long for faster ones, else 0.
 
-    The fastest mode limits the time step. The contacts of a heavy sphere last about half a period;
-    for any other sphere the least time in contact is used. A heavy sphere that deflects the plate
-    beyond the linear model is rejected too.
+    Raises
+    ------
+    SceneError
+        If it lasts too long even for the fewest modes, or a heavy sphere deflects a plate that does
+        not stretch too far.
     """
-    model = law.model
-    if model.inertia.modes or model.inertia.infinite_plate:
-        return
+    if law.model.inertia.modes or law.model.inertia.infinite_plate:
+        return 0
     check_deflected(law, tolerance)
-    ratio, swing = _heaviness(law)
-    if ratio < HEAVY:
-        _check_time_in_contact(law, tolerance)
-        return
-    steps, most = _steps(law, 2 * affordable(law), tolerance, IN_CONTACT * swing)
+    return _fitting(law, tolerance)
+
+
+def _fitting(law: ContactLaw, tolerance: float) -> int:
+    """Return the number of `slow_count`; the fastest mode limits the time step."""
+    time, lowest, count = _too_long(law, tolerance), branching(law, "A0"), FEWEST
+    if not time:
+        return 0
+    steps, most = _steps(lowest, count, tolerance, time, FEWER)
     if steps > most:
-        remedy = "set effects.inertia = false (for such a sphere the plate is nearly quasi-static)"
-        if law.stretches:  # a quasi-static plate would not
-            remedy = "use a thicker or smaller plate or a lighter sphere"
-        raise SceneError(
-            f"effects.inertia: the sphere is {ratio:.3g} times as heavy as the first mode of the "
-            f"plate and stays in contact for about {swing:.2g} s, which needs at least {steps:.2g} "
-            f"time steps, more than the limit of {most}; {remedy}, or choose inertia.modes"
+        raise _endless(law, count, time, steps, most)
+    while steps <= most and (more := math.ceil(MORE * count)) < affordable(lowest):
+        steps, most = _steps(lowest, more, tolerance, time, FEWER, QUICK)
+        count = more if steps <= most else count
+    return count
+
+
+def _too_long(law: ContactLaw, tolerance: float) -> float:
+    """Return the least time [s] in contact if it needs more time steps than are allowed, else 0.
+
+    The contacts of a heavy sphere last about half a period; for any other sphere the least time in
+    contact is used.
+    """
+    ratio, swing = _heaviness(law)
+    if ratio >= HEAVY:
+        count, fewer, time = 2 * affordable(law), 0, IN_CONTACT * swing
+    else:  # the first run, with the lowest branch
+        law = branching(law, "A0") if law.model.inertia.branches == "auto" else law
+        count, fewer = affordable(law), FEWER
+        time = time_in_contact(law, plate_of(law, min(count, STOPPED)).modes)
+    steps, most = _steps(law, count, tolerance, time, fewer)
+    return time if steps > most else 0.0
+
+
+def _endless(law: ContactLaw, count: int, time: float, steps: float, most: int) -> SceneError:
+    """Return the error of a time [s] in contact that is too long even with a few modes."""
+    remedy = "use a lighter sphere, or a thicker or smaller plate"
+    if _heaviness(law)[0] >= HEAVY and not law.stretches:  # a quasi-static plate would not
+        remedy += (
+            ", or set effects.inertia = false (for such a sphere the plate is nearly quasi-static)"
         )
+    return SceneError(
+        f"effects.inertia: the sphere stays on the plate for at least about {time:.2g} s, which "
+        f"needs {steps:.2g} time steps with only {count} plate modes, more than the limit of "
+        f"{most}; {remedy}"
+    )
 
 
 def deflects_too_far(law: ContactLaw) -> bool:
@@ -201,9 +237,11 @@ def _slower(law: ContactLaw, tolerance: float, limit: float, swing: float) -> st
 
     def simulable(speed: float) -> float:
         """Return a speed, or 0 if it needs too many time steps."""
-        slow = replace(law, model=replace(law.model, v0=speed))
-        steps, most = _steps(slow, 2 * affordable(slow), tolerance, IN_CONTACT * swing)
-        return speed if steps <= most else 0.0
+        try:
+            _fitting(replace(law, model=replace(law.model, v0=speed)), tolerance)
+        except SceneError:
+            return 0.0
+        return speed
 
     speed = simulable(speed) if speed else 0.0
     if not speed:
@@ -222,24 +260,13 @@ def _heaviness(law: ContactLaw) -> tuple[float, float]:
     return law.model.m * float(modes.inverse_modal_mass[0]), half_period(law.model.m, modes)
 
 
-def _check_time_in_contact(law: ContactLaw, tolerance: float) -> None:
-    """Reject a sphere whose first run, with the lowest branch, needs too many time steps."""
-    if law.model.inertia.branches == "auto":
-        law = branching(law, "A0")
-    count = affordable(law)
-    least = time_in_contact(law, plate_of(law, min(count, STOPPED)).modes)
-    steps, most = _steps(law, count, tolerance, least, FEWER)
-    if steps > most:
-        raise SceneError(
-            f"effects.inertia: expected an impact of at most {most} time steps, got one with an "
-            f"estimated time in contact of at least {least:.2g} s, which needs {steps:.2g} time "
-            f"steps with the {count} modes that its short contacts require; use a lighter "
-            "sphere, or a thicker or smaller plate"
-        )
-
-
 def _steps(
-    law: ContactLaw, count: int, tolerance: float, time: float, fewer: int = 0
+    law: ContactLaw,
+    count: int,
+    tolerance: float,
+    time: float,
+    fewer: int = 0,
+    work: float = contact_sequence.WORK,
 ) -> tuple[float, int]:
     """Return the least number of time elements during a time [s] in contact, and their limit.
 
@@ -251,5 +278,5 @@ def _steps(
     if steps <= most:
         problem = problem_of(law, count, tolerance)
         n = nodes_for(problem) - fewer
-        steps, most = each / n, contact_sequence.steps_of(problem, n)
+        steps, most = each / n, contact_sequence.steps_of(problem, n, work)
     return steps, most

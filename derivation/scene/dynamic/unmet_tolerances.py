@@ -10,23 +10,27 @@ from derivation.scene.quantity import rounded_up
 from derivation.scene.selection.achieved_accuracy import AchievedAccuracy
 
 
-def duration_may_jump(rtol: float, law: ContactLaw, by_effects: bool) -> SceneError:
+def duration_may_jump(rtol: float, law: ContactLaw, by_effects: bool, slow: bool) -> SceneError:
     """Return the error for a first contact whose duration may jump.
 
     Parameters
     ----------
     by_effects
         Whether it jumps by omitted effects only, which a small enough tolerance includes.
+    slow
+        Whether the impact lasts too long for more modes.
     """
-    remedy = "try a smaller tolerance, with which more of them are included"
-    if by_effects:
-        remedy = "reduce the tolerance, so that more of them are included"
+    remedy = "try a smaller tolerance, with which more of them are included, or "
+    if slow:
+        remedy = ""
+    elif by_effects:
+        remedy = "reduce the tolerance, so that more of them are included, or "
     elif law.model.inertia.modes:  # their number does not depend on the tolerance
-        remedy = "try more inertia.modes"
+        remedy = "try more inertia.modes, or "
     return SceneError(
         f"rtol: contact_time, the duration of the first contact, cannot be computed to {rtol:.3g}, "
         "because the omitted effects, modes or wave branches may split this contact, or join it "
-        f"with the next one; {remedy}, or remove contact_time from accuracy.outputs"
+        f"with the next one; {remedy}remove contact_time from accuracy.outputs"
     )
 
 

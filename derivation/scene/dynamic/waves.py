@@ -24,6 +24,7 @@ from derivation.scene.dynamic.mode_count import (
     affordable,
     branching,
     check_resolving,
+    coarser,
     count_of,
     finer,
     followed,
@@ -33,12 +34,13 @@ from derivation.scene.dynamic.reach import OutOfReachError, Reach
 from derivation.scene.dynamic.refinement import KEPT, TOLERANCE_FRACTION, Refinement
 from derivation.scene.dynamic.results import dynamic_impact_of
 from derivation.scene.dynamic.runs import LOOSE, WORK, Budget, time_tolerance
+from derivation.scene.dynamic.slow_modes import slow_impact
 from derivation.scene.dynamic.stiff_unloading import number_with_solution
 from derivation.scene.dynamic.stretched_shapes import with_enough_shapes, with_shape_error
-from derivation.scene.dynamic.time_in_contact import FEWER, check_deflected, check_long, nodes_for
+from derivation.scene.dynamic.time_in_contact import FEWER, check_deflected, nodes_for, slow_count
 from derivation.scene.dynamic.wave_motion import DynamicImpact
 from derivation.scene.dynamic.wave_problem import problem_of
-from derivation.scene.errors import StiffUnloadingError
+from derivation.scene.errors import EndlessError, StiffUnloadingError
 from derivation.scene.scene import OUTPUTS
 
 
@@ -91,9 +93,24 @@ def _impact(
     """Return the impact of `impact` within a budget of work."""
     if math.isfinite(need):
         check_resolving(law)
-    check_long(law, time_tolerance(goal))
-    reach, first = Reach(law, outputs, need), law.model.b
-    law, branches = with_enough_shapes(law, need), law.model.inertia.branches
+    count, used = slow_count(law, time_tolerance(goal)), with_enough_shapes(law, need)
+    if not count:
+        free = not (law.model.inertia.modes or law.model.inertia.infinite_plate)
+        try:
+            run = _with_fast_modes(used, goal, Reach(law, outputs, need), budget)
+            if not (free and run.impact_history.endless):
+                return run
+        except EndlessError:
+            if not free:
+                raise
+        count = coarser(affordable(branching(law, "A0")))
+    return with_shape_error(used, slow_impact(used, count, goal, Budget(WORK)), goal)
+
+
+def _with_fast_modes(law: ContactLaw, goal: float, reach: Reach, budget: Budget) -> DynamicImpact:
+    """Return the impact with modes as fast as the contact, or with those of the scene."""
+    first, outputs, need = law.model.b, reach.outputs, reach.need
+    branches = law.model.inertia.branches
     rough: DynamicImpact | None = None
     coarse: ImpactHistory | None = None
     if law.model.inertia.infinite_plate and not law.model.inertia.modes:

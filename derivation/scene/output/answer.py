@@ -16,7 +16,7 @@ from derivation.scene.output.error_causes import (
     TIMES,
     causes,
 )
-from derivation.scene.output.result_errors import largest_within_error, unknown
+from derivation.scene.output.result_errors import largest_within_error, stated_accuracy, unknown
 from derivation.scene.quantity import digits_of, percent, prefixed, significant, up_to
 
 if TYPE_CHECKING:
@@ -80,8 +80,8 @@ def short(result: "Result") -> str:
 
 def _remarks(result: "Result") -> Iterator[str]:
     """Yield the lines below the table of results."""
-    bound = result.accuracy.bound
-    yield f"Accuracy: {result.accuracy.summary}{_model_error(result)}{_stress_error(result)}"
+    accuracy = stated_accuracy(result)
+    yield f"Accuracy: {accuracy.summary}{_model_error(result)}{_stress_error(result)}"
     rise = risen_pressure(result.effects.law, result.max_contact_radius)
     if rise is not None:
         yield (
@@ -89,16 +89,15 @@ def _remarks(result: "Result") -> Iterator[str]:
             f"may be larger by factors of about {rise.restitution:.2g} and {rise.force:.2g} (see "
             "the warning)"
         )
-    if result.complete and not digits_of(bound) and math.isfinite(bound):
-        yield f"Unknown: the error by {result.accuracy.largest_part} may be as large as the results"
+    if result.complete and not digits_of(accuracy.bound) and math.isfinite(accuracy.bound):
+        yield f"Unknown: the error by {accuracy.largest_part} may be as large as the results"
     elif not digits_of(result.model_error) and not result.unusable_note:
         yield "Uncertain: the model error may be as large as the results"
     elif others := unknown(result):
         names = ", ".join(name.replace("_", " ") for name in others)
-        yield (
-            f"Unknown: {names}, which accuracy.outputs does not name: omitted effects or modes may "
-            "change them by 100 % or more"
-        )
+        named = any(name in result.accuracy.outputs for name in others)
+        why = "" if named else ", which accuracy.outputs does not name"
+        yield (f"Unknown: {names}{why}: omitted effects or modes may change them by 100 % or more")
     yield f"Effects: {result.effects.summary}"
     if result.energy_balance is not None and result.complete:
         error = result.bound_of("restitution") + result.model_errors["restitution"]

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 from derivation.scene.contact_law.yielding import dent_error
 from derivation.scene.errors import SceneError
 from derivation.scene.kernels import YIELD_LIMIT
-from derivation.scene.quantity import digits_of
+from derivation.scene.quantity import NO_DIGITS, digits_of
 from derivation.scene.scene import OUTPUTS
+from derivation.scene.selection.achieved_accuracy import AchievedAccuracy
 from derivation.scene.selection.method_selection import accuracy_on
 
 if TYPE_CHECKING:
@@ -17,6 +18,12 @@ FORCE, PLASTICITY = "max_force", "plasticity"
 RESULTS = (*OUTPUTS, "max_pressure", "max_tensile_stress", "total_time", "dent")
 SAME_ERROR = {"max_pressure": "max_contact_radius"}
 """For max_pressure, the result with the same relative model error: p_0 is proportional to a."""
+OF_OTHERS = {
+    "max_pressure": (FORCE, "max_contact_radius"),
+    "max_tensile_stress": (FORCE,),
+    "total_time": OUTPUTS,
+}
+"""The outputs whose bounds apply to a result that is no output."""
 ONSET = 2.0
 """Power in which omitted effects change the largest force's Hertz radius over that at the onset of
 yield. Elasticity s of the sphere changes this ratio by the power -2/3 of 1 + s, and the contact
@@ -37,9 +44,7 @@ def bound_of(result: "Result", name: str) -> float:
         raise SceneError(f"name: expected one of {', '.join(RESULTS)}, got {name!r}")
     if name == "dent":
         return _dent_error(result, 0.0)
-    outputs: tuple[str, ...] = (name,) if name in OUTPUTS else OUTPUTS
-    if name == "max_tensile_stress":
-        outputs = (FORCE,)
+    outputs = OF_OTHERS.get(name, (name,))
     accuracy = accuracy_on(outputs, result.effects, result.dynamics, result.accuracy)
     if name == "max_pressure":
         return max(accuracy.pressure_bound, _beyond_yield(result))
@@ -53,7 +58,7 @@ def digits_of_result(result: "Result", name: str) -> int:
     without a bound has none, unless no result has a bound.
     """
     bound = bound_of(result, name)
-    if math.isinf(bound) and math.isfinite(result.accuracy.bound):
+    if math.isinf(bound) and any(math.isfinite(bound_of(result, other)) for other in OUTPUTS):
         return 0
     if math.isinf(bound):
         return min(digits_of(bound), max(1, digits_of(_error_of(result, name, 0.0))))
@@ -76,9 +81,21 @@ def largest_within_error(result: "Result", name: str) -> float:
 
 
 def unknown(result: "Result") -> tuple[str, ...]:
-    """Return the outputs without a digit to which the tolerance does not apply."""
-    others = (name for name in OUTPUTS if name not in result.accuracy.outputs)
-    return tuple(name for name in others if not digits_of_result(result, name))
+    """Return the outputs without a digit, if others have one."""
+    names = tuple(name for name in OUTPUTS if not digits_of_result(result, name))
+    return names if len(names) < len(OUTPUTS) else ()
+
+
+def stated_accuracy(result: "Result") -> AchievedAccuracy:
+    """Return the accuracy of all outputs to which the tolerance applies, or of those with a digit.
+
+    The latter is stated if the former leaves no digit.
+    """
+    accuracy, left = result.accuracy, unknown(result)
+    outputs = tuple(name for name in accuracy.outputs if name not in left)
+    if accuracy.bound < NO_DIGITS or not (outputs and left):
+        return accuracy
+    return accuracy_on(outputs, result.effects, result.dynamics, accuracy)
 
 
 def _omits_yield(result: "Result") -> bool:

@@ -23,7 +23,7 @@ from derivation.scene.effects.effect import Results
 from derivation.scene.errors import SceneError, ToleranceError
 from derivation.scene.input.messages import shown, tolerance_remedy
 from derivation.scene.model import Model
-from derivation.scene.quantity import rounded_up
+from derivation.scene.quantity import NO_DIGITS, rounded_up
 from derivation.scene.quasi_static import motion, simple_laws
 from derivation.scene.quasi_static.closed_form import closed_form
 from derivation.scene.scene import TIGHTEST
@@ -104,7 +104,8 @@ def solve_selected(
         timed = moving is not None and "contact_time" in selected.outputs
         jumps = bool(moving and timed and moving.inertia.jump > rtol)
         if jumps or _may_jump(selected, moving):
-            raise duration_may_jump(rtol, law, by_effects=not jumps)
+            slow = moving is not None and moving.inertia.slow
+            raise duration_may_jump(rtol, law, not jumps, slow)
         before = replace(accuracy, effects=Part(selected.error, _basis(selected)))
         growth = (
             largest_growth(growth_of(moving), selected.outputs) if before.bound <= rtol else 1.0
@@ -122,8 +123,11 @@ def accuracy_on(
     moving: "DynamicImpact | None",
     accuracy: AchievedAccuracy,
 ) -> AchievedAccuracy:
-    """Return the accuracy of outputs, from that of those to which the tolerance applies."""
-    if set(outputs) <= set(accuracy.outputs):
+    """Return the accuracy of outputs: that of all to which the tolerance applies, or their own.
+
+    Their own is used if the tolerance does not apply to them, or if together they have no digit.
+    """
+    if set(outputs) <= set(accuracy.outputs) and accuracy.bound < NO_DIGITS:
         return accuracy
     return _of_outputs(selected.on(outputs), moving, accuracy)
 

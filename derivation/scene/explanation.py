@@ -2,6 +2,7 @@
 
 import math
 import time
+from contextlib import suppress
 from dataclasses import dataclass
 from html import escape
 from typing import Any
@@ -13,6 +14,7 @@ from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import ZENER_LIMIT
 from derivation.scene.effects import BY_NAME, EFFECTS
 from derivation.scene.effects.effect import NO_BOUND, Effect
+from derivation.scene.errors import SceneError
 from derivation.scene.impact import selected_effects
 from derivation.scene.numerics.quadrature import NODES, rule
 from derivation.scene.quantity import prefixed, rounded_up
@@ -172,8 +174,14 @@ def _inertia(selected: SelectedEffects) -> str:
     law, model = selected.law, selected.law.model
     if law.dynamic:
         from derivation.scene.dynamic.mode_count import count_of, finer
+        from derivation.scene.dynamic.runs import time_tolerance
+        from derivation.scene.dynamic.time_in_contact import slow_count
+        from derivation.scene.dynamic.waves import goal
 
         modes = f"the simulation starts with {finer(law, count_of(law))} bending modes"
+        with suppress(SceneError):  # which the simulation states
+            if count := slow_count(law, time_tolerance(goal(selected.rtol))):
+                modes = f"{count} bending modes, because the impact lasts too long for faster ones"
         if model.inertia.infinite_plate:
             modes += ", on a plate so large that no wave returns from its edge"
         return f"Plate inertia is included: Zener parameter {zener_number(model):.3g}; {modes}."

@@ -21,6 +21,7 @@ from derivation.scene.dynamic.first_contact import jump_since
 from derivation.scene.dynamic.infinite_plate import wave_returned, widened, wider
 from derivation.scene.dynamic.integration_error import error_after
 from derivation.scene.dynamic.mode_count import (
+    FEWEST,
     affordable,
     branching,
     check_resolving,
@@ -58,7 +59,8 @@ def impact(
 ) -> DynamicImpact:
     """Return the impact by a law with inertia.
 
-    If a contact after the first cannot be computed to its end, the impact is incomplete.
+    If a contact after the first cannot be computed to its end, the impact is incomplete. An impact
+    with too many time steps is computed with slower modes.
 
     Parameters
     ----------
@@ -103,7 +105,7 @@ def _impact(
         except EndlessError:
             if not free:
                 raise
-        count = coarser(affordable(branching(law, "A0")))
+        count = max(FEWEST, coarser(affordable(branching(law, "A0"))))
     return with_shape_error(used, slow_impact(used, count, goal, Budget(WORK)), goal)
 
 

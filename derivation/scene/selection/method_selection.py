@@ -104,8 +104,7 @@ def solve_selected(
         timed = moving is not None and "contact_time" in selected.outputs
         jumps = bool(moving and timed and moving.inertia.jump > rtol)
         if jumps or _may_jump(selected, moving):
-            slow = moving is not None and moving.inertia.slow
-            raise duration_may_jump(rtol, law, not jumps, slow)
+            raise duration_may_jump(rtol, law, not jumps, bool(moving and moving.inertia.slow))
         before = replace(accuracy, effects=Part(selected.error, _basis(selected)))
         growth = (
             largest_growth(growth_of(moving), selected.outputs) if before.bound <= rtol else 1.0

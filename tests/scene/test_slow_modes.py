@@ -98,7 +98,7 @@ def test_heavy_ball_on_a_sheet_has_usable_results(result: Result) -> None:
     assert result.bound_of("max_force") < 0.3
     text = " ".join(str(result).split())
     assert "contact time (first of 2) unknown" in text
-    assert "Unknown: contact time: omitted effects or modes may change them" in text
+    assert "Unknown: contact time: omitted effects or modes may change it" in text
     assert "error of max indentation, max force, max contact radius, restitution at most" in text
 
 

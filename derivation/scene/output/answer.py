@@ -17,7 +17,7 @@ from derivation.scene.output.error_causes import (
     causes,
 )
 from derivation.scene.output.result_errors import largest_within_error, stated_accuracy, unknown
-from derivation.scene.quantity import digits_of, percent, prefixed, significant, up_to
+from derivation.scene.quantity import digits_of, percent, prefixed, rounded_up, significant, up_to
 
 if TYPE_CHECKING:
     from derivation.scene.dynamic.wave_motion import DynamicImpact
@@ -80,8 +80,13 @@ def short(result: "Result") -> str:
 
 def _remarks(result: "Result") -> Iterator[str]:
     """Yield the lines below the table of results."""
-    accuracy = stated_accuracy(result)
-    yield f"Accuracy: {accuracy.summary}{_model_error(result)}{_stress_error(result)}"
+    accuracy, others = stated_accuracy(result)
+    larger = "".join(
+        f", of {name.replace('_', ' ')} {rounded_up(bound)}"
+        for name, bound in others.items()
+        if digits_of(bound)
+    )
+    yield f"Accuracy: {accuracy.summary}{larger}{_model_error(result)}{_stress_error(result)}"
     rise = risen_pressure(result.effects.law, result.max_contact_radius)
     if rise is not None:
         yield (
@@ -93,11 +98,12 @@ def _remarks(result: "Result") -> Iterator[str]:
         yield f"Unknown: the error by {accuracy.largest_part} may be as large as the results"
     elif not digits_of(result.model_error) and not result.unusable_note:
         yield "Uncertain: the model error may be as large as the results"
-    elif others := unknown(result):
-        names = ", ".join(name.replace("_", " ") for name in others)
-        named = any(name in result.accuracy.outputs for name in others)
+    elif without := unknown(result):
+        names = ", ".join(name.replace("_", " ") for name in without)
+        named = any(name in result.accuracy.outputs for name in without)
         why = "" if named else ", which accuracy.outputs does not name"
-        yield (f"Unknown: {names}{why}: omitted effects or modes may change them by 100 % or more")
+        them = "it" if len(without) == 1 else "them"
+        yield f"Unknown: {names}{why}: omitted effects or modes may change {them} by 100 % or more"
     yield f"Effects: {result.effects.summary}"
     if result.energy_balance is not None and result.complete:
         error = result.bound_of("restitution") + result.model_errors["restitution"]

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from derivation.scene.contact_law.yielding import dent_error
 from derivation.scene.errors import SceneError
 from derivation.scene.kernels import YIELD_LIMIT
-from derivation.scene.quantity import NO_DIGITS, digits_of
+from derivation.scene.quantity import ONE_DIGIT, digits_of
 from derivation.scene.scene import OUTPUTS
 from derivation.scene.selection.achieved_accuracy import AchievedAccuracy
 from derivation.scene.selection.method_selection import accuracy_on
@@ -86,16 +86,18 @@ def unknown(result: "Result") -> tuple[str, ...]:
     return names if len(names) < len(OUTPUTS) else ()
 
 
-def stated_accuracy(result: "Result") -> AchievedAccuracy:
-    """Return the accuracy of all outputs to which the tolerance applies, or of those with a digit.
+def stated_accuracy(result: "Result") -> tuple[AchievedAccuracy, dict[str, float]]:
+    """Return the accuracy of the outputs to which the tolerance applies, and the larger bounds.
 
-    The latter is stated if the former leaves no digit.
+    If together they have at most one digit, the accuracy is that of those which have more, and the
+    bounds are those of the others.
     """
-    accuracy, left = result.accuracy, unknown(result)
-    outputs = tuple(name for name in accuracy.outputs if name not in left)
-    if accuracy.bound < NO_DIGITS or not (outputs and left):
-        return accuracy
-    return accuracy_on(outputs, result.effects, result.dynamics, accuracy)
+    accuracy, bounds = result.accuracy, {x: bound_of(result, x) for x in result.accuracy.outputs}
+    better = tuple(name for name, bound in bounds.items() if bound < ONE_DIGIT)
+    if accuracy.bound < ONE_DIGIT or not better:
+        return accuracy, {}
+    others = {name: bound for name, bound in bounds.items() if name not in better}
+    return accuracy_on(better, result.effects, result.dynamics, accuracy), others
 
 
 def _omits_yield(result: "Result") -> bool:

@@ -23,7 +23,7 @@ from derivation.scene.effects.effect import Results
 from derivation.scene.errors import SceneError, ToleranceError
 from derivation.scene.input.messages import shown, tolerance_remedy
 from derivation.scene.model import Model
-from derivation.scene.quantity import NO_DIGITS, rounded_up
+from derivation.scene.quantity import ONE_DIGIT, rounded_up
 from derivation.scene.quasi_static import motion, simple_laws
 from derivation.scene.quasi_static.closed_form import closed_form
 from derivation.scene.scene import TIGHTEST
@@ -122,11 +122,11 @@ def accuracy_on(
     moving: "DynamicImpact | None",
     accuracy: AchievedAccuracy,
 ) -> AchievedAccuracy:
-    """Return the accuracy of outputs: that of all to which the tolerance applies, or their own.
+    """Return the accuracy of outputs: that of all to which the tolerance applies.
 
-    Their own is used if the tolerance does not apply to them, or if together they have no digit.
+    It is their own if the tolerance does not apply to them, or leaves at most one digit for all.
     """
-    if set(outputs) <= set(accuracy.outputs) and accuracy.bound < NO_DIGITS:
+    if set(outputs) <= set(accuracy.outputs) and accuracy.bound < ONE_DIGIT:
         return accuracy
     return _of_outputs(selected.on(outputs), moving, accuracy)
 

@@ -42,7 +42,9 @@ may agree in one result by chance. Without it, errors of single results in rando
 2.2 times the estimates; 0.34 would have been enough for all of them."""
 SLOWER, BY_CHANCE_TWICE = 1.5, 0.1
 """Factor of that error if all modes are slower than a short contact, and `BY_CHANCE` for the larger
-one of two changes, since half and since a quarter as many modes."""
+one of two changes, since half and since a quarter as many modes. In 73 runs with 8 to 85 modes of
+17 random scenes, errors were at most 0.6 of the estimates; 73 other scenes determined the factors.
+"""
 FLIGHT = 129
 """Number of times at which the plate is evaluated in flight; a peak is underestimated by 1 %."""
 HEADS = (
@@ -336,7 +338,13 @@ class DynamicImpact(Motion):
         ended = f"No further contact is possible after {contacts}{fall}. "
         branches = "all wave branches" if self.law.model.inertia.branches == "all" else "branch A0"
         change = "an error estimate requires more modes"
-        if math.isfinite(max(inertia.mode_convergence)):
+        if inertia.slow:
+            change = (
+                "with half and a quarter of the bending modes the results differ by at most "
+                f"{rounded_up(max(inertia.mode_convergence))}; faster modes would need too many "
+                "time steps"
+            )
+        elif math.isfinite(max(inertia.mode_convergence)):
             change = (
                 "halving the number of bending modes changes the results by at most "
                 f"{rounded_up(max(inertia.mode_convergence))}"

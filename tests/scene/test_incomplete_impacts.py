@@ -14,8 +14,8 @@ from derivation.cli import main
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import contact_sequence, flight, refinement, waves
 from derivation.scene.dynamic.contact_sequence import ImpactHistory
+from derivation.scene.dynamic.first_contact import IRREGULAR
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
-from derivation.scene.dynamic.wave_motion import IRREGULAR
 from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.effects import WHOLE_PLATE
 from derivation.scene.model import InertiaSettings, Model

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from derivation.scene import Result, SceneError, read, simulate
-from derivation.scene.dynamic.wave_motion import InertiaDetails
+from derivation.scene.dynamic.inertia_details import InertiaDetails
 from derivation.scene.measured import scan
 from derivation.scene.measured.measured import solved
 from derivation.scene.measured.measurement import Measurement

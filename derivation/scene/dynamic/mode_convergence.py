@@ -10,6 +10,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic.contact_sequence import ImpactHistory, least_work, work_of
 from derivation.scene.dynamic.first_contact import IRREGULAR, jump_since
+from derivation.scene.dynamic.inertia_details import InertiaDetails
 from derivation.scene.dynamic.modal import free_modes
 from derivation.scene.dynamic.mode_count import (
     FURTHER,
@@ -24,12 +25,12 @@ from derivation.scene.dynamic.reach import Reach
 from derivation.scene.dynamic.results import NONE, UNKNOWN
 from derivation.scene.dynamic.short_echoes import echo_errors
 from derivation.scene.dynamic.time_element import C, P
-from derivation.scene.dynamic.wave_motion import DynamicImpact, InertiaDetails
+from derivation.scene.dynamic.wave_motion import DynamicImpact
 from generated.arrays import Double as Array
 
 REGULAR, QUICK = 2.2, 16.0
 """Largest expected factors by which twice as many modes reduce an error: of the contact time, which
-decreases regularly (see `wave_motion.LATE`) with modes shorter than the thickness; of others."""
+decreases regularly (see `inertia_details.LATE`) with modes shorter than the thickness; of others."""
 FIRST = 4000.0
 """The same factor if half as many modes were all slower than the contact: in 84 random impacts the
 error then decreased by factors of up to 2300, with a single contact by up to 170."""

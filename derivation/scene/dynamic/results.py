@@ -8,10 +8,11 @@ from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic.contact_sequence import ContactRun, ImpactHistory
 from derivation.scene.dynamic.energy import balance_of
 from derivation.scene.dynamic.flight import meeting_speed
+from derivation.scene.dynamic.inertia_details import ContactInterval, InertiaDetails
 from derivation.scene.dynamic.problem import DynamicProblem
 from derivation.scene.dynamic.short_echoes import echo_errors
 from derivation.scene.dynamic.time_element import A, C, P, Z
-from derivation.scene.dynamic.wave_motion import ContactInterval, DynamicImpact, InertiaDetails
+from derivation.scene.dynamic.wave_motion import DynamicImpact
 from derivation.scene.effects.effect import Results, weight_work_ratio
 from derivation.scene.effects.inertia import after_yield, higher_branch_error
 from derivation.scene.numerics.collocation import Element, largest_of

@@ -17,6 +17,8 @@ from derivation.scene.input.materials import engineering_constants
 from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS
 
+pytestmark = pytest.mark.one_version
+
 Tables = dict[str, Any]
 SHEET: Tables = {
     "sphere": {"radius": 0.02, "material": "steel"},

@@ -9,7 +9,9 @@ because the plate stretches is computed with few modes only.
 """
 
 import math
+from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -107,10 +109,15 @@ def _impact(
     every = branching(run.law, "all")
     if branches != "auto" or run.law == every or not _missed_by_branches(run, every, reach):
         return run
+    return _better(run, lambda: _refined(every, first, goal, reach, budget), outputs)
+
+
+def _better(
+    run: DynamicImpact, other: Callable[[], DynamicImpact], outputs: tuple[str, ...]
+) -> DynamicImpact:
+    """Return the run with the smaller error of two, or the first one if the other one fails."""
     with suppress(SceneError):
-        found = _refined(every, first, goal, reach, budget)
-        if found.inertia.error(outputs) < run.inertia.error(outputs):
-            return found
+        return min(run, other(), key=lambda one: one.inertia.error(outputs))
     return run
 
 
@@ -136,7 +143,17 @@ def _refined(
     while law.model.inertia.infinite_plate and wave_returned(run):
         law = wider(law, first, run)
         run = Refinement(law, goal, reach, budget).impact()
-    return with_shape_error(law, run, goal)
+    found, need = with_shape_error(law, run, goal), reach.need
+    by_shapes = max(found.inertia.shape_error[OUTPUTS.index(name)] for name in reach.outputs)
+    if _misses(run, reach) or not _misses(found, reach) or by_shapes >= need:
+        return found
+    less = Refinement(law, goal, replace(reach, need=need - by_shapes), budget)
+    return _better(found, lambda: with_shape_error(law, less.impact(rough), goal), reach.outputs)
+
+
+def _misses(run: DynamicImpact, reach: Reach) -> bool:
+    """Return whether a run does not meet a tolerance."""
+    return run.inertia.error(reach.outputs) + integration_error(run.impact_history) > reach.need
 
 
 def _missed_by_branches(run: DynamicImpact, every: ContactLaw, reach: Reach) -> bool:
@@ -147,10 +164,8 @@ def _missed_by_branches(run: DynamicImpact, every: ContactLaw, reach: Reach) -> 
     every
         The law with all branches.
     """
-    inertia, viscous = run.inertia, every.viscous
-    missed = inertia.error(reach.outputs) + integration_error(run.impact_history) > reach.need
-    by_modes = inertia.left(reach.outputs)[0] > reach.need
-    if viscous or by_modes or not missed or not inertia.complete:
+    by_modes = run.inertia.left(reach.outputs)[0] > reach.need
+    if every.viscous or by_modes or not run.inertia.complete or not _misses(run, reach):
         return False
     return followed(every, finer(every, affordable(every)))
 

@@ -262,3 +262,24 @@ def test_a_stretched_plate_meets_all_tolerances_above_a_named_one(
     for rtol in (1.6 * named, *(0.995 * (error + by_shapes) for error in errors)):
         assert rtol < named or simulated(rtol).accuracy.bound <= rtol
     waves.impact.cache_clear()
+
+
+@pytest.mark.parametrize("factor", [1.0, 1.5, 2.0])
+def test_omitted_effects_leave_a_part_of_the_tolerance_for_rounding(factor: float) -> None:
+    """A tolerance above the named one was rejected, because effects were omitted with it."""
+    scene = read(
+        {
+            "sphere": {"radius": 0.00181, "material": "steel"},
+            "plate": {
+                "radius": 6.04, "thickness": 0.1184, "youngs_modulus": 170.5e9,
+                "poissons_ratio": 0.346, "density": 3917.0, "edge": "simply-supported",
+                "retardation_time": 4.034e-6,
+            },
+            "impact": {"speed": 0.00332},
+            "effects": {"inertia": False},
+        }
+    )  # fmt: skip
+    with pytest.raises(SceneError, match="rtol: expected at least") as error:
+        simulate(scene, rtol=7.6e-12)
+    rtol = factor * float(str(error.value).partition("at least ")[2].split()[0])
+    assert simulate(scene, rtol=rtol).accuracy.bound <= rtol

@@ -111,7 +111,10 @@ def out_of_reach(
             f"{law.model.inertia.modes}; increase inertia.modes, or remove the tolerance"
         )
     if met:
-        remedy += f", or request only what meets it: accuracy.outputs = {json.dumps(list(met))}"
+        remedy += (
+            ", or request only results whose errors are small enough in this simulation: "
+            f"accuracy.outputs = {json.dumps(list(met))}"
+        )
     if not named <= 1.0:
         instead = remedy.replace("increase the tolerance", "remove the tolerance")
         return ToleranceError(

@@ -110,10 +110,9 @@ def solve_selected(
             others = tuple(name for name in selected.outputs if name != "contact_time")
             rest = _of_outputs(selected.on(others), moving, accuracy).bound if others else None
             raise duration_may_jump(rtol, law, by_effects=not jumps, others=rest)
-        before = replace(accuracy, effects=Part(selected.error, _basis(selected)))
-        growth = (
-            largest_growth(growth_of(moving), selected.outputs) if before.bound <= rtol else 1.0
-        )
+        room = rtol - replace(accuracy, effects=Part(0.0, PROVED)).bound
+        growth = largest_growth(growth_of(moving), selected.outputs)
+        growth = growth * rtol / room if room > 0.0 else 0.0
         met = () if moving is None else _met(selected, moving, accuracy, rtol)
         named = accuracy.bound if moving is None else _named(selected, moving, accuracy)
         raise out_of_reach(rtol, accuracy, law, results[3], growth, met, named)

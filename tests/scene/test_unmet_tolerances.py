@@ -10,8 +10,9 @@ from shared_scenes import EXAMPLES
 
 from derivation.scene import Result, SceneError, read, simulate
 from derivation.scene.dynamic import refinement, stretched_shapes, waves
+from derivation.scene.dynamic.contact_errors import too_many_steps
 from derivation.scene.dynamic.integration_error import integration_error
-from derivation.scene.dynamic.mode_convergence import nearly_meets
+from derivation.scene.dynamic.mode_convergence import nearly_meets, unchecked
 from derivation.scene.dynamic.reach import Reach
 from derivation.scene.dynamic.runs import Budget
 from derivation.scene.dynamic.wave_motion import DynamicImpact
@@ -283,3 +284,17 @@ def test_omitted_effects_leave_a_part_of_the_tolerance_for_rounding(factor: floa
         simulate(scene, rtol=7.6e-12)
     rtol = factor * float(str(error.value).partition("at least ")[2].split()[0])
     assert simulate(scene, rtol=rtol).accuracy.bound <= rtol
+
+
+@pytest.mark.parametrize("stretching", [True, False])
+def test_a_plate_that_stretches_is_not_recommended_to_have_no_inertia(stretching: bool) -> None:
+    tables = tomllib.loads((EXAMPLES / "glass_pane.toml").read_text())
+    run = simulate(read(tables | {"effects": {"stretching": stretching}})).dynamics
+    assert run is not None
+    history = run.impact_history
+    remedies = (
+        unchecked(history, history.problem, 4).remedy,
+        too_many_steps(history.problem, 1.0, 10).remedy,
+    )
+    for remedy in remedies:
+        assert ("effects.inertia = false" in str(remedy)) != stretching

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.dynamic.contact_errors import or_quasi_static
 from derivation.scene.dynamic.contact_sequence import ImpactHistory, least_work, work_of
 from derivation.scene.dynamic.first_contact import IRREGULAR, jump_since
 from derivation.scene.dynamic.integration_error import integration_error
@@ -370,6 +371,5 @@ def unchecked(coarse: ImpactHistory, problem: DynamicProblem, fewer: int) -> Imp
         coarse,
         reason=f"the error of {coarse.problem.omega.size} modes is unknown, because the "
         f"{problem.omega.size} modes for its estimate exceed the limit of time steps and modes",
-        remedy=f"set inertia.modes = {fewer} and remove the tolerance, or set "
-        "effects.inertia = false",
+        remedy=f"set inertia.modes = {fewer} and remove the tolerance{or_quasi_static(problem)}",
     )

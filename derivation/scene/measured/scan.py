@@ -33,10 +33,10 @@ NO_LOSS = 1e-6
 """Retardation time over the contact time that stands for a contact without loss [1]."""
 ABOVE = 0.4
 """Restitution above that without loss beyond which no value is searched; at most 0.31 above it in
-random scenes."""
+52 random scenes."""
 BELOW = 0.4
 """Restitution over the first minimum with increasing retardation time, below which none is
-searched: later minima were at least 0.43 of it in 25 random scenes."""
+searched: later minima were at least 0.43 of it in 27 random scenes."""
 UNSURE, NEARLY, HALVED = 0.03, 0.15, 0.5
 """Relative difference from the measured restitution up to which accurate simulations decide whether
 a value gives it, up to which values close to it are simulated, and up to which all intervals are

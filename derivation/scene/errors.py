@@ -142,11 +142,11 @@ class ToleranceError(SceneError):
     error
         Error bound that the results reach, or are expected to reach [1].
     growth
-        Factor by which the impact increased the bound on the omitted effects, if the tolerance is
-        met without it [1]; else 1.
+        Factor by which the bounds on the omitted effects must decrease, if the tolerance is met
+        without them [1]; else 0.
     """
 
-    def __init__(self, message: str, error: float, growth: float = 1.0) -> None:
+    def __init__(self, message: str, error: float, growth: float = 0.0) -> None:
         super().__init__(message, error, growth)  # the arguments from which pickle restores it
         self.message, self.error, self.growth = message, error, growth
 

@@ -61,7 +61,8 @@ from derivation.scene.tensile_stress import TensileStress, tensile_stress
 DEFAULT = 1e-3
 """Tolerance of the effect selection if the scene has no tolerance [1]."""
 REPEATED = 0.5
-"""Part of the tolerance for the omitted effects, if the simulation is repeated with more [1]."""
+"""Part of what remains of the tolerance for the omitted effects, if the simulation is repeated with
+more [1]."""
 
 
 def simulate(
@@ -202,14 +203,15 @@ def _solved(
 ) -> tuple[SelectedEffects, Results, AchievedAccuracy]:
     """Return the effects, the outputs and their accuracy, with the error of a fitted constant.
 
-    If the simulation increases the bounds beyond the tolerance, it is repeated with more effects.
+    If the bounds on the omitted effects leave too little of the tolerance, perhaps because the
+    simulation increases them, it is repeated with more effects.
     """
     rest = remaining_of(scene, rtol)
     try:
         try:
             numbers, accuracy = solve_selected(selected, rest)
         except ToleranceError as error:
-            if error.growth == 1.0:
+            if not error.growth:
                 raise
             more = selected_effects(scene, rtol, error.growth / REPEATED)[1]
             if more.law.effects == selected.law.effects:

@@ -83,6 +83,36 @@ def test_the_largest_restitution_of_several_contacts_is_named() -> None:
     assert named == pytest.approx(float(found[1]), rel=0.1)
 
 
+def test_a_restitution_that_is_not_searched_is_rejected_with_the_end_of_the_search() -> None:
+    """Restitutions above that without loss are possible, as the first test of this file shows."""
+    with pytest.raises(SceneError, match=r"several contacts .* may increase") as error:
+        simulate(measured(LIGHT, "yield_stress", 0.9))
+    ends = re.search(
+        r"less than about (\S+), .* up to a restitution of about (\S+)", str(error.value)
+    )
+    assert ends
+    without_loss, last = map(float, ends.groups())
+    assert without_loss + 0.3 < last < 0.9
+
+
+def test_a_later_minimum_with_the_retardation_time_is_found() -> None:
+    """A restitution of half the first minimum was rejected as smaller than all restitutions."""
+    tables = {
+        "sphere": {"radius": 0.00113, "material": "glass"},
+        "plate": {
+            "radius": 0.007, "thickness": 1.48e-3, "youngs_modulus": 26.9e9,
+            "poissons_ratio": 0.165, "density": 1262.0,
+        },
+        "impact": {"speed": 0.031},
+        "accuracy": {"rtol": 0.03, "outputs": ["restitution"]},
+    }  # fmt: skip
+    first, later = (with_constant(tables, "retardation_time", x) for x in (3.8e-5, 2.14e-4))
+    assert later.restitution < 0.6 * first.restitution
+    scene = measured(tables, "retardation_time", later.restitution)
+    found = with_constant(tables, "retardation_time", solved(scene))
+    assert found.restitution == pytest.approx(later.restitution, rel=0.03)
+
+
 def test_warning_if_a_sphere_that_is_hit_again_has_the_restitution_of_a_single_contact() -> None:
     """An earlier version warned only of several contacts with the constant that it found."""
     for stress, warned in ((5e8, True), (1e9, False)):

@@ -185,7 +185,7 @@ def test_a_retardation_time_that_never_reduces_the_restitution_is_no_solution() 
     }
     few = Measurement(phone, "retardation_time", 0.96, PART).to(0.1)
     elastic = few.simulated(None)
-    with pytest.raises(UnreachedError, match="which no value reduces") as error:
+    with pytest.raises(UnreachedError, match="which none of the tried values reduces") as error:
         few.rough_value(elastic)
     assert f"{elastic.restitution:.3g}" in str(error.value)
     assert elastic.restitution < few.simulated(error.value.value).restitution

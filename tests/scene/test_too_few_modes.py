@@ -47,6 +47,17 @@ def test_recommended_numbers_have_a_bound_and_only_smaller_ones_are_rejected() -
         simulate(scene(least - 1))
 
 
+def test_recommended_number_is_not_said_to_meet_the_tolerance() -> None:
+    """It only resolves the contact; an earlier message did not say that more may be necessary."""
+    with pytest.raises(SceneError) as error:
+        simulate(scene(3, 1e-5))
+    said = r"to resolve it, increase inertia\.modes to (\d+) \(the tolerance may require more\)"
+    found = re.search(said, str(error.value))
+    assert found
+    with pytest.raises(SceneError, match=r"^rtol: .*; increase the tolerance or inertia\.modes"):
+        simulate(scene(int(found[1]), 1e-5))
+
+
 def test_no_tolerance_above_one_is_recommended() -> None:
     """An earlier message recommended a tolerance of 290 %, which a scene may not have."""
     result = simulate(scene(40, None))

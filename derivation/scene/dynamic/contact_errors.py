@@ -43,7 +43,7 @@ SHARP = 0.05
 
 def too_many_steps(problem: DynamicProblem, t: float, most: int) -> EndlessError:
     """Return the error of a simulation with too many time steps."""
-    remedy = "reduce inertia.modes, increase accuracy.rtol, or set effects.inertia = false"
+    remedy = f"reduce inertia.modes, or increase accuracy.rtol{or_quasi_static(problem)}"
     if math.isfinite(problem.first_echo):
         remedy = 'use a thicker plate or a lighter sphere, or remove extent = "infinite"'
     return EndlessError(
@@ -51,6 +51,11 @@ def too_many_steps(problem: DynamicProblem, t: float, most: int) -> EndlessError
         f"limit of {most} time steps was reached",
         remedy,
     )
+
+
+def or_quasi_static(problem: DynamicProblem) -> str:
+    """Return the remedy of a plate without inertia; none if it stretches, which needs inertia."""
+    return "" if problem.middle_plane is not None else ", or set effects.inertia = false"
 
 
 def check_width(problem: DynamicProblem, radius: float) -> None:

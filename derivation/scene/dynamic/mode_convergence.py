@@ -8,9 +8,11 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.dynamic.contact_errors import or_quasi_static
 from derivation.scene.dynamic.contact_sequence import ImpactHistory, least_work, work_of
 from derivation.scene.dynamic.first_contact import IRREGULAR, jump_since
 from derivation.scene.dynamic.inertia_details import InertiaDetails
+from derivation.scene.dynamic.integration_error import integration_error
 from derivation.scene.dynamic.modal import free_modes
 from derivation.scene.dynamic.mode_count import (
     FURTHER,
@@ -30,7 +32,7 @@ from generated.arrays import Double as Array
 
 REGULAR, QUICK = 2.2, 16.0
 """Largest expected factors by which twice as many modes reduce an error: of the contact time, which
-decreases regularly (see `inertia_details.LATE`) with modes shorter than the thickness; of others."""
+decreases regularly with modes shorter than the thickness (`inertia_details.LATE`); of others."""
 FIRST = 4000.0
 """The same factor if half as many modes were all slower than the contact: in 84 random impacts the
 error then decreased by factors of up to 2300, with a single contact by up to 170."""
@@ -345,7 +347,7 @@ def echoes_matter(run: DynamicImpact, reach: Reach) -> bool:
 
     Their effect on the force decreases as the square root of the number of modes.
     """
-    error, room = run.inertia.echo_error, reach.need - run.inertia.left(reach.outputs)[1]
+    error, room = run.inertia.echo_error, room_for_modes(run, reach)
     if "max_force" not in reach.outputs or not room < error:
         return False
     return error <= room * math.sqrt(FURTHER * MODES / run.impact_history.problem.omega.size)
@@ -363,8 +365,14 @@ def jump_matters(run: DynamicImpact, reach: Reach) -> bool:
 
 def nearly_meets(run: DynamicImpact, reach: Reach) -> bool:
     """Return whether results that do not meet the tolerance probably do after one more doubling."""
-    modes, branches = run.inertia.left(reach.outputs)
-    return modes + branches > reach.need and modes <= ONCE * (reach.need - branches)
+    modes, room = run.inertia.left(reach.outputs)[0], room_for_modes(run, reach)
+    return room < modes <= ONCE * room
+
+
+def room_for_modes(run: DynamicImpact, reach: Reach) -> float:
+    """Return the part of the tolerance that omitted branches and time elements leave [1]."""
+    branches = run.inertia.left(reach.outputs)[1]
+    return reach.need - branches - integration_error(run.impact_history)
 
 
 def unchecked(coarse: ImpactHistory, problem: DynamicProblem, fewer: int) -> ImpactHistory:
@@ -373,6 +381,5 @@ def unchecked(coarse: ImpactHistory, problem: DynamicProblem, fewer: int) -> Imp
         coarse,
         reason=f"the error of {coarse.problem.omega.size} modes is unknown, because the "
         f"{problem.omega.size} modes for its estimate exceed the limit of time steps and modes",
-        remedy=f"set inertia.modes = {fewer} and remove the tolerance, or set "
-        "effects.inertia = false",
+        remedy=f"set inertia.modes = {fewer} and remove the tolerance{or_quasi_static(problem)}",
     )

@@ -113,7 +113,10 @@ def check_resolving(law: ContactLaw) -> None:
         return
     least = count_of(with_modes(law, 0))
     if least < MOST:
-        remedy = f'increase inertia.modes to {2 * least}, set it to "auto", or remove the tolerance'
+        remedy = (
+            f"to resolve it, increase inertia.modes to {2 * least} (the tolerance may require "
+            'more) or set it to "auto", or remove the tolerance'
+        )
     else:
         remedy = "remove the tolerance"
     raise SceneError(

@@ -12,7 +12,6 @@ from derivation.scene.dynamic import contact_sequence
 from derivation.scene.dynamic.contact_errors import check_whole_width
 from derivation.scene.dynamic.contact_sequence import ImpactHistory, expected_work
 from derivation.scene.dynamic.infinite_plate import wave_returned
-from derivation.scene.dynamic.integration_error import integration_error
 from derivation.scene.dynamic.mode_convergence import (
     compare,
     echoes_matter,
@@ -20,6 +19,7 @@ from derivation.scene.dynamic.mode_convergence import (
     largest_change,
     largest_error,
     nearly_meets,
+    room_for_modes,
     unreachable,
     without_estimate,
 )
@@ -222,13 +222,16 @@ class Refinement:
         if work > LONG and math.isinf(reach.need):
             return min(ROUGHER * math.sqrt(work / LONG), ROUGHEST) * goal
         beyond = run.inertia.left(reach.outputs)[1]
+        room = room_for_modes(run, reach)
         # If omitted branches matter more than omitted modes, a tenth of their change is small
         # enough.
         enough = goal if beyond <= goal / TOLERANCE_FRACTION else max(goal, 0.1 * beyond)
+        if room > 0.0:  # otherwise no number of modes meets the tolerance
+            enough = min(enough, room)
         allowed = KEPT * reach.need
         if not run.inertia.jump <= allowed < math.inf:
             return enough
-        return max(enough, allowed - beyond - integration_error(run.impact_history))
+        return max(enough, room - (reach.need - allowed))
 
     def _with_earlier(
         self, run: DynamicImpact, count: int, halved: DynamicImpact | None

@@ -52,7 +52,9 @@ def with_shape_error(law: ContactLaw, run: DynamicImpact, goal: float) -> Dynami
     The simulations with few modes are not charged to the budget of the impact.
     """
     shapes = law.model.inertia.shapes
-    if run.impact_history.problem.contact.modes.phi.size <= shapes or not run.inertia.complete:
+    if not law.stretches or not run.inertia.complete:
+        return run
+    if run.impact_history.problem.contact.modes.phi.size <= shapes:
         return run  # the change with the number of modes includes it
     return replace(run, inertia=replace(run.inertia, shape_error=_error(law, shapes, goal)))
 

@@ -3,20 +3,55 @@
 import json
 import math
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.errors import SceneError, ToleranceError
 from derivation.scene.quantity import rounded_up
 from derivation.scene.selection.achieved_accuracy import AchievedAccuracy
 
+if TYPE_CHECKING:
+    from derivation.scene.dynamic.reach import OutOfReachError
 
-def duration_may_jump(rtol: float, law: ContactLaw, by_effects: bool, slow: bool) -> SceneError:
+
+def branches_exceed(rtol: float, omitted: float, error: "OutOfReachError") -> ToleranceError:
+    """Return the error for a tolerance that the omitted wave branches alone exceed.
+
+    Parameters
+    ----------
+    omitted
+        Bound on the change by the omitted effects [1].
+    error
+        The error of the simulation, which has ended early.
+    """
+    least, change = (
+        math.expm1(math.log1p(omitted) + math.log1p(part)) for part in (error.least, error.change)
+    )
+    expected = f"at least about {rounded_up(least)}"
+    remedy = (
+        "this is a lower limit, to which omitted modes may add: increase the tolerance to it or "
+        "further"
+    )
+    if not least <= 1.0:
+        expected, remedy = "no tolerance", "remove the tolerance"
+    return ToleranceError(
+        f"rtol: expected {expected}, because {error.why}, got {rtol:.3g}; {remedy}, or remove "
+        f"this limit: {error.remedy}",
+        change,
+    )
+
+
+def duration_may_jump(
+    rtol: float, law: ContactLaw, by_effects: bool, others: float | None, slow: bool
+) -> SceneError:
     """Return the error for a first contact whose duration may jump.
 
     Parameters
     ----------
     by_effects
         Whether it jumps by omitted effects only, which a small enough tolerance includes.
+    others
+        Error bound of the other requested results [1]; None if there are none.
     slow
         Whether the impact lasts too long for more modes.
     """
@@ -27,10 +62,15 @@ def duration_may_jump(rtol: float, law: ContactLaw, by_effects: bool, slow: bool
         remedy = "reduce the tolerance, so that more of them are included, or "
     elif law.model.inertia.modes:  # their number does not depend on the tolerance
         remedy = "try more inertia.modes, or "
+    without = "remove contact_time from accuracy.outputs"
+    if others is None:
+        without = "request other results in accuracy.outputs"
+    elif math.isfinite(others) and others > rtol:
+        without += f" (the error of the other results is up to {rounded_up(others)})"
     return SceneError(
         f"rtol: contact_time, the duration of the first contact, cannot be computed to {rtol:.3g}, "
         "because the omitted effects, modes or wave branches may split this contact, or join it "
-        f"with the next one; {remedy}remove contact_time from accuracy.outputs"
+        f"with the next one; {remedy}{without}"
     )
 
 
@@ -75,7 +115,10 @@ def out_of_reach(
             f"{law.model.inertia.modes}; increase inertia.modes, or remove the tolerance"
         )
     if met:
-        remedy += f", or request only what meets it: accuracy.outputs = {json.dumps(list(met))}"
+        remedy += (
+            ", or request only results whose errors are small enough in this simulation: "
+            f"accuracy.outputs = {json.dumps(list(met))}"
+        )
     if not named <= 1.0:
         instead = remedy.replace("increase the tolerance", "remove the tolerance")
         return ToleranceError(

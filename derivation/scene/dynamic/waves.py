@@ -9,6 +9,9 @@ because the plate stretches is computed with few modes only.
 """
 
 import math
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -19,7 +22,7 @@ from derivation.scene.dynamic import contact_sequence
 from derivation.scene.dynamic.contact_sequence import ContactRun, ImpactHistory
 from derivation.scene.dynamic.first_contact import jump_since
 from derivation.scene.dynamic.infinite_plate import wave_returned, widened, wider
-from derivation.scene.dynamic.integration_error import error_after
+from derivation.scene.dynamic.integration_error import error_after, integration_error
 from derivation.scene.dynamic.mode_count import (
     FEWEST,
     affordable,
@@ -32,7 +35,7 @@ from derivation.scene.dynamic.mode_count import (
 )
 from derivation.scene.dynamic.not_usable import not_usable
 from derivation.scene.dynamic.reach import OutOfReachError, Reach
-from derivation.scene.dynamic.refinement import KEPT, TOLERANCE_FRACTION, Refinement
+from derivation.scene.dynamic.refinement import TOLERANCE_FRACTION, Refinement
 from derivation.scene.dynamic.results import dynamic_impact_of
 from derivation.scene.dynamic.runs import LOOSE, WORK, Budget, time_tolerance
 from derivation.scene.dynamic.slow_modes import slow_impact
@@ -41,7 +44,7 @@ from derivation.scene.dynamic.stretched_shapes import with_enough_shapes, with_s
 from derivation.scene.dynamic.time_in_contact import FEWER, check_deflected, nodes_for, slow_count
 from derivation.scene.dynamic.wave_motion import DynamicImpact
 from derivation.scene.dynamic.wave_problem import problem_of
-from derivation.scene.errors import EndlessError, StiffUnloadingError
+from derivation.scene.errors import EndlessError, SceneError, StiffUnloadingError
 from derivation.scene.scene import OUTPUTS
 
 
@@ -121,35 +124,69 @@ def _with_fast_modes(law: ContactLaw, goal: float, reach: Reach, budget: Budget)
         return few
     if law.model.inertia.branches == "auto" and not law.viscous:
         law, rough = _branched(law, goal, reach, budget)
+    run = _refined(law, first, goal, reach, budget, rough, coarse)
+    every = branching(run.law, "all")
+    if branches != "auto" or run.law == every or not _missed_by_branches(run, every, reach):
+        return run
+    return _better(run, lambda: _refined(every, first, goal, reach, budget), outputs)
+
+
+def _better(
+    run: DynamicImpact, other: Callable[[], DynamicImpact], outputs: tuple[str, ...]
+) -> DynamicImpact:
+    """Return the run with the smaller error of two, or the first one if the other one fails."""
+    with suppress(SceneError):
+        return min(run, other(), key=lambda one: one.inertia.error(outputs))
+    return run
+
+
+def _refined(
+    law: ContactLaw,
+    first: float,
+    goal: float,
+    reach: Reach,
+    budget: Budget,
+    rough: DynamicImpact | None = None,
+    coarse: ImpactHistory | None = None,
+) -> DynamicImpact:
+    """Return the impact with enough modes, on an infinite plate with a sufficient width.
+
+    Parameters
+    ----------
+    first
+        The first radius of an infinite plate [m].
+    rough, coarse
+        The runs with the fewest modes, and with still fewer, if there are any.
+    """
     run = Refinement(law, goal, reach, budget).impact(rough, coarse)
     while law.model.inertia.infinite_plate and wave_returned(run):
         law = wider(law, first, run)
         run = Refinement(law, goal, reach, budget).impact()
-    if not law.stretches:
-        return run
-    run = with_shape_error(law, run, goal)
-    if not _jumps_by_branches(law, run, branches, reach):
-        return run
-    law = branching(law, "all")
-    run = Refinement(law, goal, reach, budget).impact()
-    return with_shape_error(law, run, goal)
+    found, need = with_shape_error(law, run, goal), reach.need
+    by_shapes = max(found.inertia.shape_error[OUTPUTS.index(name)] for name in reach.outputs)
+    if _misses(run, reach) or not _misses(found, reach) or by_shapes >= need:
+        return found
+    less = Refinement(law, goal, replace(reach, need=need - by_shapes), budget)
+    return _better(found, lambda: with_shape_error(law, less.impact(rough), goal), reach.outputs)
 
 
-def _jumps_by_branches(law: ContactLaw, run: DynamicImpact, given: str, reach: Reach) -> bool:
-    """Return whether a tolerance is missed because omitted branches may make a duration jump.
+def _misses(run: DynamicImpact, reach: Reach) -> bool:
+    """Return whether a run does not meet a tolerance."""
+    return run.inertia.error(reach.outputs) + integration_error(run.impact_history) > reach.need
+
+
+def _missed_by_branches(run: DynamicImpact, every: ContactLaw, reach: Reach) -> bool:
+    """Return whether a tolerance is missed because of the omitted branches.
 
     Parameters
     ----------
-    given
-        The branches of the scene; only if they are "auto" some may have been omitted.
+    every
+        The law with all branches.
     """
-    inertia, omits = run.inertia, given == "auto" and law.model.inertia.branches == "A0"
-    if law.viscous or not omits or not inertia.complete or "contact_time" not in reach.outputs:
+    by_modes = run.inertia.left(reach.outputs)[0] > reach.need
+    if every.viscous or by_modes or not run.inertia.complete or not _misses(run, reach):
         return False
-    every = branching(law, "all")
-    if not inertia.jump or not followed(every, finer(every, affordable(every))):
-        return False
-    return inertia.error(reach.outputs) > KEPT * reach.need
+    return followed(every, finer(every, affordable(every)))
 
 
 def check_simulable(law: ContactLaw, rtol: float | None) -> None:

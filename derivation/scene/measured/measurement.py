@@ -327,8 +327,9 @@ class Measurement:
             points, step, rising, back = points[::-1], -step, 0, True
         raise SceneError(
             f"measured.restitution: expected a value that some plate.{self.key} gives, got "
-            f"{self.goal:.6g}, which no value from {math.exp(first):.6g} to {math.exp(now.x):.6g} "
-            f"{UNITS[self.key]} gives; correct it, or change measured.solve_for"
+            f"{self.goal:.6g}, which none of the values tried from {math.exp(first):.6g} to "
+            f"{math.exp(now.x):.6g} {UNITS[self.key]} gives; correct it, or change "
+            "measured.solve_for"
         )
 
     def _next(self, points: list[Point], step: float, lossless: Trial) -> Point:
@@ -363,8 +364,9 @@ class Measurement:
             return self.below(smallest, least, math.exp(lowest.x))
         return UnreachedError(
             f"measured.restitution: expected about {lossless.restitution:.3g}, the restitution "
-            f"without a plate.{self.key}, which no value reduces, got {self.goal:.6g}; correct "
-            "measured.restitution or measured.target, or change measured.solve_for",
+            f"without a plate.{self.key}, which none of the tried values reduces, got "
+            f"{self.goal:.6g}; correct measured.restitution or measured.target, or change "
+            "measured.solve_for",
             least,
             math.exp(lowest.x),
         )
@@ -383,8 +385,8 @@ class Measurement:
         """Return the error of a restitution below the smallest one, which a constant gives."""
         return UnreachedError(
             f"measured.restitution: expected at least about {smallest:.3g}, the smallest "
-            f"restitution that a plate.{self.key} gives, got {self.goal:.6g}; the restitution is "
-            f"smallest at about {value:.2g} {UNITS[self.key]}; correct measured.restitution or "
+            f"restitution that a plate.{self.key} was found to give, at about {value:.2g} "
+            f"{UNITS[self.key]}, got {self.goal:.6g}; correct measured.restitution or "
             "measured.target",
             least,
             value,

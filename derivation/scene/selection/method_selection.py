@@ -17,13 +17,17 @@ from derivation.engine.threads import one_thread
 from derivation.scene import kernels
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import check_energy, check_numbers
-from derivation.scene.dynamic.unmet_tolerances import duration_may_jump, out_of_reach
+from derivation.scene.dynamic.unmet_tolerances import (
+    branches_exceed,
+    duration_may_jump,
+    out_of_reach,
+)
 from derivation.scene.effects import BY_NAME, PAPER
 from derivation.scene.effects.effect import Results
-from derivation.scene.errors import SceneError, ToleranceError
+from derivation.scene.errors import SceneError
 from derivation.scene.input.messages import shown, tolerance_remedy
 from derivation.scene.model import Model
-from derivation.scene.quantity import ONE_DIGIT, rounded_up
+from derivation.scene.quantity import ONE_DIGIT
 from derivation.scene.quasi_static import motion, simple_laws
 from derivation.scene.quasi_static.closed_form import closed_form
 from derivation.scene.scene import TIGHTEST
@@ -104,11 +108,13 @@ def solve_selected(
         timed = moving is not None and "contact_time" in selected.outputs
         jumps = bool(moving and timed and moving.inertia.jump > rtol)
         if jumps or _may_jump(selected, moving):
-            raise duration_may_jump(rtol, law, not jumps, bool(moving and moving.inertia.slow))
-        before = replace(accuracy, effects=Part(selected.error, _basis(selected)))
-        growth = (
-            largest_growth(growth_of(moving), selected.outputs) if before.bound <= rtol else 1.0
-        )
+            others = tuple(name for name in selected.outputs if name != "contact_time")
+            rest = _of_outputs(selected.on(others), moving, accuracy).bound if others else None
+            slow = bool(moving and moving.inertia.slow)
+            raise duration_may_jump(rtol, law, not jumps, rest, slow)
+        room = rtol - replace(accuracy, effects=Part(0.0, PROVED)).bound
+        growth = largest_growth(growth_of(moving), selected.outputs)
+        growth = growth * rtol / room if room > 0.0 else 0.0
         met = () if moving is None else _met(selected, moving, accuracy, rtol)
         named = accuracy.bound if moving is None else _named(selected, moving, accuracy)
         raise out_of_reach(rtol, accuracy, law, results[3], growth, met, named)
@@ -288,18 +294,8 @@ def dynamic_impact(
         with one_thread(), np.errstate(all="ignore"):  # extreme scenes give NaN, which is checked
             return waves.impact(selected.law, waves.goal(rest), selected.outputs, need)
     except OutOfReachError as error:
-        least, change = (
-            math.expm1(math.log1p(selected.error) + math.log1p(part))
-            for part in (error.least, error.change)
-        )
-        expected, larger = f"at least about {rounded_up(least)}", "increase"
-        if not least <= 1.0:
-            expected, larger = "no tolerance", "remove"
-        raise ToleranceError(
-            f"rtol: expected {expected}, because {error.why}, got {rtol:.3g}; {larger} the "
-            f"tolerance, or {error.remedy}",
-            change,
-        ) from None
+        assert rtol is not None
+        raise branches_exceed(rtol, selected.error, error) from None
 
 
 def moved(law: ContactLaw) -> motion.Motion:

@@ -144,7 +144,7 @@ class ForceError(NamedTuple):
 def force_error(law: ContactLaw, motion: "DynamicImpact", deflections: Deflections) -> ForceError:
     """Return the relative errors of forces by what the model of stretching neglects."""
     model, steep = law.model, motion.steepness
-    part = deflections.largest / steep.deflection if steep.deflection else 0.0
+    part = deflections.largest / steep.deflection
     fastest = math.sqrt(model.modulus / model.density)
     transit = 2.0 * float(model.h) / (fastest * motion.contact_time)
     factor = ROTATION * part * part

@@ -1,5 +1,6 @@
 """Decides whether the results of an impact require that the plate stretches, with few modes."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
@@ -56,7 +57,9 @@ def needs_stretching(law: ContactLaw, outputs: Sequence[str]) -> bool:
         return rough >= EXPECTED
     deflections = deflections_of(law, motion)
     without = stretching_error(law, motion, deflections)
-    remaining = stretching_error(stretched(law), motion, deflections)
+    size = float(stretching(law.model, deflections.largest))
+    part = math.sqrt(2.0 / (1.0 + math.sqrt(1.0 + 2.0 * size)))  # of a stiffening spring
+    remaining = stretching_error(stretched(law), motion, deflections.times(part))
     return any(
         error >= NEEDED and remaining[name] <= BETTER * error
         for name, error in without.items()

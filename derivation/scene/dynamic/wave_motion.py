@@ -15,7 +15,7 @@ from derivation.scene.contact_law.limits import local_indentation
 from derivation.scene.dynamic.contact_sequence import ImpactHistory
 from derivation.scene.dynamic.first_contact import EVALUATIONS, IRREGULAR, decisive_change, minima
 from derivation.scene.dynamic.history_at import ROUNDED, deflections, rows_of
-from derivation.scene.dynamic.middle_plane import Steepness
+from derivation.scene.dynamic.middle_plane import MiddlePlane, Steepness
 from derivation.scene.dynamic.stretched_flight import reach
 from derivation.scene.dynamic.time_element import A, C, E, P, V, W, Z
 from derivation.scene.effects.effect import Results
@@ -271,13 +271,14 @@ class DynamicImpact(Motion):
 
     @cached_property
     def steepness(self) -> Steepness:
-        """The slope of a plate that stretches, in its time elements; 0 without stretching."""
+        """The slope of the plate in its time elements, also of one that does not stretch."""
         problem, contacts = self.impact_history.problem, self.impact_history.contacts
-        plane, by_shape = problem.middle_plane, problem.contact.modes.by_shape
-        if plane is None:
-            return Steepness(0.0, np.zeros(EVALUATIONS), 0.0)
+        modes = problem.contact.modes
+        plane = problem.middle_plane or MiddlePlane.of(
+            self.law.model, modes, problem.depth, problem.force
+        )
         pieces = [piece for one in contacts for piece in one.pieces]
-        ends = [by_shape(piece.end.q) for piece in pieces]
+        ends = [modes.by_shape(piece.end.q) for piece in pieces]
         squares, fourths = np.maximum.accumulate([plane.steepness(q) for q in ends]).T
         so_far = (problem.depth / self.law.model.b) ** 2 * fourths / squares
         own = [piece.element for piece in contacts[0].pieces]

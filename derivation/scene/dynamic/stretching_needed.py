@@ -22,7 +22,9 @@ from derivation.scene.quantity import ONE_DIGIT
 NEEDED = ONE_DIGIT
 """Model error by the neglect of stretching from which it is included: one digit would be left."""
 BETTER = 0.5
-"""Largest remaining model error over that by the neglect for which stretching is included [1]."""
+"""Largest remaining model error over that by the neglect for which stretching is included [1]. The
+remaining error is estimated without a plate that stretches: in 325 random scenes with an error of
+at least `NEEDED`, the decision was that of a simulation with stretching in all but four."""
 SMALL = NEEDED / FORCE / 20.0
 """Rough estimate of the stiffening below which no impact is simulated for this decision [1]. The
 stiffening was at most 20 times this estimate in 212 random impacts (47 with weight), and at most

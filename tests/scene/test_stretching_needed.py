@@ -88,6 +88,26 @@ def test_stretching_that_hardly_reduces_the_error_is_not_included(
     assert not selected_effects(scene)[1].law.stretches
 
 
+def test_steep_plate_does_not_stretch_if_rotations_cause_most_of_the_error() -> None:
+    """An earlier version neglected rotations in the error that would remain, and included it."""
+    scene: Tables = {
+        "sphere": {"radius": 0.0139, "mass": 0.0195, "material": "steel"},
+        "plate": {
+            "radius": 0.0427, "thickness": 8.43e-3, "youngs_modulus": 1.32e7, "edge": "clamped",
+            "poissons_ratio": 0.469, "density": 1987.0,
+        },
+        "impact": {"speed": 5.08},
+        "accuracy": {"rtol": 0.1},
+    }  # fmt: skip
+    assert not explain(read(scene)).effects.law.stretches
+    without, with_it = (
+        simulate(read(scene | {"effects": {"stretching": on}})) for on in (False, True)
+    )
+    assert without.model_error > NEEDED
+    for name, error in without.model_errors.items():
+        assert error < NEEDED or with_it.model_errors[name] > 0.5 * error, name
+
+
 @pytest.mark.usefixtures("undecided")
 def test_rough_estimate_decides_if_few_modes_have_no_solution(
     monkeypatch: pytest.MonkeyPatch,

@@ -157,3 +157,10 @@ def test_rows_of_flights_equal_single_flights(name: str) -> None:
         assert row[:2].tolist() == [state.velocity, state.displacement]
         assert row[2] == pytest.approx(np.sum(state.q), rel=1e-13)
         assert row[3] == pytest.approx(np.sum(problem.energies(state)), rel=1e-13)
+
+
+@pytest.mark.parametrize("approach", [1e-3, -1e-3])
+def test_contact_begins_on_a_face_that_has_not_recovered(approach: float) -> None:
+    """The approach is negative if the plate is more curved than the sphere; this was an error."""
+    begin = ImpactState(0.0, 1.0, np.zeros(1), np.zeros(1), approach)
+    assert next_element.begun(begin, 0.1) == pytest.approx(1e-3 ** (1.0 / 6.0))

@@ -1,7 +1,7 @@
 """Forces on the modes of a plate by stretching of its middle plane (von Karman, 1910)."""
 
 from dataclasses import dataclass
-from typing import Self
+from typing import NamedTuple, Self
 
 import numpy as np
 
@@ -15,6 +15,24 @@ from generated.arrays import Double as Array
 
 POINTS, MORE_POINTS = 2, 16
 """Points on the radius per shape, and additional ones."""
+
+
+class Steepness(NamedTuple):
+    """Mean square of a plate's slope [1], weighted with the energy of stretching.
+
+    Attributes
+    ----------
+    largest
+        The largest one, up to the last separation.
+    so_far
+        The largest one up to each of some times of the first contact.
+    deflection
+        Largest deflection at the axis up to the last separation [m].
+    """
+
+    largest: float
+    so_far: Array
+    deflection: float
 
 
 @dataclass(frozen=True)

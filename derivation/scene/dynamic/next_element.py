@@ -81,11 +81,12 @@ def begun(begin: ImpactState, radius: float) -> float:
 
     Such a contact has no onset. Its time is counted from the moment at which the sphere, at its
     present speed, would have first touched a face that had recovered. With a later origin of time,
-    the elements would be too coarse for the forces at a small radius.
+    the elements would be too coarse for the forces at a small radius. A plate that is more curved
+    than the sphere touches it before, at a negative approach.
     """
     if not radius or begin.separation_speed >= 0.0:
         return 1.0 if radius else 0.0
-    return min(1.0, float((begin.approach / -begin.separation_speed) ** (1.0 / ONSET)))
+    return min(1.0, float(abs(begin.approach / begin.separation_speed) ** (1.0 / ONSET)))
 
 
 def _onset(problem: DynamicProblem, n: int, length: float, meeting: float) -> Array:

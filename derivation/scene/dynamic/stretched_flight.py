@@ -12,7 +12,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.polynomial.legendre import legval
 
-from derivation.scene.dynamic.flight import AT_ONCE, STEP, remaining_depth, side_by_side
+from derivation.scene.dynamic.flight import (
+    AT_ONCE,
+    RECOVERED,
+    STEP,
+    remaining_depth,
+    side_by_side,
+)
 from derivation.scene.dynamic.middle_plane import MiddlePlane
 from derivation.scene.dynamic.modal import Indices
 from derivation.scene.dynamic.next_element import PHASE, stretched_step
@@ -178,40 +184,44 @@ def _piece(
     ahead = min(PHASE * n / parts.stretched.fastest, stretched_step(parts.stretched, own))
     length = first = (x**ONSET + ahead) ** (1.0 / ONSET) - x
 
-    def overlaps(length: float) -> tuple[TimeElement, Array] | None:
-        """Return an element, and the overlap with a face that only its modes move."""
+    def solved(length: float) -> tuple[TimeElement, Array, Array] | None:
+        """Return an element, its overlap with a flat face that only its modes move, and these."""
         found = free_element(parts.stretched, n, x, length, own)
         if found is None:
             return None
-        made, nodes, values = found
-        overlap = values.approach
-        if parts.whole.retardation_time:
-            q = np.zeros((n, parts.whole.omega.size))
-            q[:, parts.indices[0]] = values.q
-            overlap = overlap - remaining_depth(parts.whole, t + nodes.since, radius, q)
-        return made, np.asarray(radau(n).analysis @ overlap, dtype=np.float64)
+        made, _, values = found
+        return made, radau(n).analysis @ values.approach, radau(n).analysis @ values.q
 
-    while (found := overlaps(length)) is None:
+    while (found := solved(length)) is None:
         length *= 0.5
         if length < SHORTEST * first:
             raise _unsolved(parts.whole, x)
-    made, overlap = found
+    made, approach, q = found
     by_others = float(np.sum(np.hypot(others.q, others.q_dot / parts.others.omega)))
+    recovering = t < RECOVERED * parts.whole.retardation_time
 
     def overlap_at(s: Array) -> Array:
         since = (x + length * (1.0 + s) / 2.0) ** ONSET - x**ONSET
-        return np.asarray(legval(s, overlap) - _moved(parts.others, others, since))
+        overlap = np.asarray(legval(s, approach) - _moved(parts.others, others, since))
+        block = max(1, AT_ONCE // parts.whole.omega.size)
+        for k in range(0, s.size if recovering else 0, block):
+            some = slice(k, k + block)
+            every = [parts.others.flown(others, one).q for one in since[some].tolist()]
+            both = zip(legval(s[some], q).T, every, strict=True)
+            face = np.array([parts.together(*modes) for modes in both])
+            overlap[some] -= remaining_depth(parts.whole, t + since[some], radius, face)
+        return overlap
 
     fine = max(4 * n, math.ceil(ahead * parts.whole.fastest / STEP))
     s = np.linspace(-1.0, 1.0, fine + 1)[1:]
-    near = np.flatnonzero(legval(s, overlap) + 2.0 * by_others >= 0.0)
+    near = np.flatnonzero(recovering | (legval(s, approach) + 2.0 * by_others >= 0.0))
     near = near[overlap_at(s[near]) >= 0.0] if near.size else near
     if not near.size:
         return FlightPiece(made, t, state), False
     high = float(s[near[0]])
     low = float(s[near[0] - 1]) if near[0] else -1.0
     met = rise(lambda s: float(overlap_at(np.array([s]))[0]), low, high)
-    shorter = overlaps(length * (1.0 + met) / 2.0)
+    shorter = solved(length * (1.0 + met) / 2.0)
     if shorter is None:
         raise _unsolved(parts.whole, x)
     return FlightPiece(shorter[0], t, state), True

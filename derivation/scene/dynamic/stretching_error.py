@@ -21,7 +21,6 @@ import numpy as np
 from derivation.scene.contact_law.corrections import membrane_stress, stretching
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic.time_element import A, P
-from derivation.scene.kernels import Numbers
 from derivation.scene.quantity import percent
 from generated.arrays import Double as Array
 
@@ -60,6 +59,12 @@ the errors by the former, except for the force of a later contact in three impac
 contacts: it changed by less than 0.5 %, up to 0.7 of its error. An earlier version stated the
 square of the slope times the stiffening, as if bending had no rotations; 31 of these impacts
 changed by more, up to 36 times as much.
+
+In 300 random impacts of spheres of 0.01 to 2 times the mass of the first mode, some on damped
+plates, force, radius and restitution changed by at most 0.35 of their errors, and the indentation
+by 0.15, in one of them by 0.7. An earlier version decreased the errors in the first contact as the
+square of the deflection so far. But waves are steeper than the plate is at its largest deflection:
+in 16 of these impacts the largest force, an early one, changed by more, up to 4.6 times as much.
 
 In 46 random impacts on von Karman plates whose middle plane has inertia, restitution and largest
 values changed by at most 0.4 of the errors by the latter, for stiffenings from 1e-4 to 1."""
@@ -105,7 +110,8 @@ def stretching_error(
     sizes = np.asarray(stretching(law.model, deflections.so_far), dtype=np.float64)
     if law.stretches:
         remains = force_error(law, motion, deflections)
-        size, sizes = float(remains.at(size)), np.asarray(remains.at(sizes))
+        size = remains.rotation + remains.in_plane * min(1.0, size)
+        sizes = remains.so_far + remains.in_plane * np.minimum(1.0, sizes)
     rebound = abs(motion.restitution) if motion.inertia.complete else 1.0  # else unknown
     return {
         "contact_time": max(TIME * float(sizes[-1]), earlier_end(motion.histories[0][P], sizes)),
@@ -123,31 +129,26 @@ class ForceError(NamedTuple):
     ----------
     rotation
         That of all forces at the largest deflection: the angle of a steep plate is not its slope.
+    so_far
+        The same up to each time of the first contact. Waves are steeper than the whole plate is
+        at the same deflection.
     in_plane
         That of the forces of stretching: the middle plane has inertia.
-    largest
-        The stiffening at the largest deflection.
     """
 
     rotation: float
+    so_far: Array
     in_plane: float
-    largest: float
-
-    def at(self, size: Numbers) -> Numbers:
-        """Return the relative error of all forces at stiffenings; both grow as the square."""
-        part = size / self.largest if self.largest else 0.0 * size
-        found: Numbers = self.rotation * part + self.in_plane * np.minimum(1.0, size)
-        return found
 
 
 def force_error(law: ContactLaw, motion: "DynamicImpact", deflections: Deflections) -> ForceError:
     """Return the relative errors of forces by what the model of stretching neglects."""
-    model, (steepness, deflection) = law.model, motion.steepness
-    part = deflections.largest / deflection if deflection else 0.0
+    model, steep = law.model, motion.steepness
+    part = deflections.largest / steep.deflection
     fastest = math.sqrt(model.modulus / model.density)
     transit = 2.0 * float(model.h) / (fastest * motion.contact_time)
-    largest = float(stretching(model, deflections.largest))
-    return ForceError(ROTATION * part * part * steepness, IN_PLANE * transit, largest)
+    factor = ROTATION * part * part
+    return ForceError(factor * steep.largest, factor * steep.so_far, IN_PLANE * transit)
 
 
 def exceeds_modes(law: ContactLaw, motion: "DynamicImpact", outputs: Sequence[str]) -> bool:

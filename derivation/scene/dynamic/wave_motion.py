@@ -15,8 +15,10 @@ from derivation.scene.dynamic.contact_sequence import ImpactHistory
 from derivation.scene.dynamic.first_contact import EVALUATIONS, decisive_change, minima
 from derivation.scene.dynamic.history_at import ROUNDED, deflections, rows_of
 from derivation.scene.dynamic.inertia_details import InertiaDetails
+from derivation.scene.dynamic.middle_plane import MiddlePlane, Steepness
 from derivation.scene.dynamic.stretched_flight import reach
 from derivation.scene.dynamic.time_element import A, C, E, P, V, W, Z
+from derivation.scene.numerics.collocation import ONSET
 from derivation.scene.output.html import html_table
 from derivation.scene.quantity import counted, rounded_up
 from derivation.scene.quasi_static.motion import EnergyBalance, Motion
@@ -122,22 +124,23 @@ class DynamicImpact(Motion):
         return self._in_flight(end, end + 2.0 * np.pi / slowest)
 
     @cached_property
-    def steepness(self) -> tuple[float, float]:
-        """Largest mean square of the slope, and largest deflection in the same elements [m].
-
-        The mean over the plate is weighted with the energy of stretching; 0 without stretching.
-        """
-        problem = self.impact_history.problem
-        plane, by_shape = problem.middle_plane, problem.contact.modes.by_shape
-        if plane is None:
-            return 0.0, 0.0
-        ends = [
-            by_shape(piece.end.q) for one in self.impact_history.contacts for piece in one.pieces
-        ]
-        sums = np.array([plane.steepness(q) for q in ends])
-        square = (problem.depth / self.law.model.b) ** 2 * np.max(sums[:, 1]) / np.max(sums[:, 0])
+    def steepness(self) -> Steepness:
+        """The slope of the plate in its time elements, also of one that does not stretch."""
+        problem, contacts = self.impact_history.problem, self.impact_history.contacts
+        modes = problem.contact.modes
+        plane = problem.middle_plane or MiddlePlane.of(
+            self.law.model, modes, problem.depth, problem.force
+        )
+        pieces = [piece for one in contacts for piece in one.pieces]
+        ends = [modes.by_shape(piece.end.q) for piece in pieces]
+        squares, fourths = np.maximum.accumulate([plane.steepness(q) for q in ends]).T
+        so_far = (problem.depth / self.law.model.b) ** 2 * fourths / squares
+        own = [piece.element for piece in contacts[0].pieces]
+        times = np.array([one.x + one.length for one in own]) ** ONSET
+        place = np.searchsorted(times, np.linspace(0.0, contacts[0].end, EVALUATIONS))
+        first = so_far[np.minimum(place, len(own) - 1)]
         deflection = problem.depth * max(abs(float(np.sum(q))) for q in ends)
-        return float(square), deflection
+        return Steepness(float(so_far[-1]), first, deflection)
 
     def _in_flight(self, start: float, end: float) -> float:
         """Return the largest deflection at the axis [m] between two times in problem units."""

@@ -63,7 +63,7 @@ def test_number_of_digits_follows_from_bound_and_model_error() -> None:
 
 def test_results_with_an_error_of_their_size_are_not_shown() -> None:
     known = simulate(scene())
-    lost = replace(known, accuracy=replace(known.accuracy, law=Part(1.0, PROVED)))
+    lost = replace(known, accuracy=replace(known.accuracy, quadrature=Part(1.0, PROVED)))
     assert {line.split()[1] for line in plain(lost).splitlines()} == {"unknown"}
     for name, value, unit in quantities(lost):
         assert (value, unit) == ("unknown", ""), name

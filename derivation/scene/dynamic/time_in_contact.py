@@ -7,6 +7,7 @@ long as the sphere is in contact.
 
 import math
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -46,6 +47,9 @@ sphere of at least `LIGHTEST` times the mass of the first mode have at least 0.5
 QUICK, MORE = 4e6, 1.25
 """Largest expected work of a run with slow modes: a few seconds; ratio of the numbers of modes that
 are tried."""
+LEAST_OF_TIME = 0.05
+"""Error of the contact time that a run with slow modes hardly ever falls below: it did in three of
+281 random ones."""
 LIGHTEST = 0.05
 """Sphere mass over mass of the first mode below which contacts may be shorter than that."""
 
@@ -116,63 +120,100 @@ def static_deflection(law: ContactLaw) -> float:
     return law.model.gravity * (_heaviness(law)[1] / math.pi) ** 2
 
 
-def slow_count(law: ContactLaw, tolerance: float) -> int:
+class Long(NamedTuple):
+    """An impact that lasts too long for modes as fast as the contact.
+
+    Attributes
+    ----------
+    time
+        Least time in contact [s].
+    shown
+        The expected or the least time on the plate, in words.
+    count
+        Number of modes for which it lasts too long.
+    steps, most
+        Number of time steps that they need at least, and the largest number.
+    """
+
+    time: float
+    shown: str
+    count: int
+    steps: float
+    most: int
+
+
+def slow_count(law: ContactLaw, tolerance: float, timed: float = math.inf) -> int:
     """Return the number of modes for an impact that lasts too long for faster ones, else 0.
+
+    Parameters
+    ----------
+    timed
+        Largest error of the contact time with which it is useful [1].
 
     Raises
     ------
     SceneError
-        If it lasts too long even for the fewest modes, or a heavy sphere deflects a plate that does
-        not stretch too far.
+        If it lasts too long even for the fewest modes, or the contact time with slow modes is
+        hardly ever as accurate, or a heavy sphere deflects a plate that does not stretch too far.
     """
     if law.model.inertia.modes or law.model.inertia.infinite_plate:
         return 0
     check_deflected(law, tolerance)
-    return _fitting(law, tolerance)
-
-
-def _fitting(law: ContactLaw, tolerance: float) -> int:
-    """Return the number of `slow_count`; the fastest mode limits the time step."""
-    time, lowest, count = _too_long(law, tolerance), branching(law, "A0"), FEWEST
-    if not time:
+    long = _too_long(law, tolerance)
+    if long is None:
         return 0
-    steps, most = _steps(lowest, count, tolerance, time, FEWER)
+    if timed < LEAST_OF_TIME:
+        why = " that a contact_time of this tolerance usually requires"
+        other = "remove contact_time from accuracy.outputs, increase the tolerance, "
+        raise _rejected(law, long, why, other)
+    lowest, count = branching(law, "A0"), FEWEST
+    steps, most = _steps(lowest, count, tolerance, long.time, FEWER)
     if steps > most:
-        raise _endless(law, count, time, steps, most)
+        raise _rejected(law, long._replace(count=count, steps=steps, most=most))
     while steps <= most and (more := math.ceil(MORE * count)) < affordable(lowest):
-        steps, most = _steps(lowest, more, tolerance, time, FEWER, QUICK)
+        steps, most = _steps(lowest, more, tolerance, long.time, FEWER, QUICK)
         count = more if steps <= most else count
     return count
 
 
-def _too_long(law: ContactLaw, tolerance: float) -> float:
-    """Return the least time [s] in contact if it needs more time steps than are allowed, else 0.
+def _too_long(law: ContactLaw, tolerance: float) -> Long | None:
+    """Return why an impact needs more time steps than are allowed, if it does.
 
-    The contacts of a heavy sphere last about half a period; for any other sphere the least time in
-    contact is used.
+    The fastest mode limits the time step. The contacts of a heavy sphere last about half a period;
+    for any other sphere the least time in contact is used.
     """
     ratio, swing = _heaviness(law)
     if ratio >= HEAVY:
         count, fewer, time = 2 * affordable(law), 0, IN_CONTACT * swing
+        shown = f"about {swing:.2g}"
     else:  # the first run, with the lowest branch
         law = branching(law, "A0") if law.model.inertia.branches == "auto" else law
         count, fewer = affordable(law), FEWER
         time = time_in_contact(law, plate_of(law, min(count, STOPPED)).modes)
+        shown = f"at least about {time:.2g}"
     steps, most = _steps(law, count, tolerance, time, fewer)
-    return time if steps > most else 0.0
+    return Long(time, shown, count, steps, most) if steps > most else None
 
 
-def _endless(law: ContactLaw, count: int, time: float, steps: float, most: int) -> SceneError:
-    """Return the error of a time [s] in contact that is too long even with a few modes."""
-    remedy = "use a lighter sphere, or a thicker or smaller plate"
+def _rejected(law: ContactLaw, long: Long, why: str = "", other: str = "") -> SceneError:
+    """Return the error of an impact with too many time steps.
+
+    Parameters
+    ----------
+    why
+        Why it needs so many modes.
+    other
+        Remedies beside another sphere or plate.
+    """
+    remedy = f"{other}use a lighter sphere, or a thicker or smaller plate"
     if _heaviness(law)[0] >= HEAVY and not law.stretches:  # a quasi-static plate would not
         remedy += (
             ", or set effects.inertia = false (for such a sphere the plate is nearly quasi-static)"
         )
     return SceneError(
-        f"effects.inertia: the sphere stays on the plate for at least about {time:.2g} s, which "
-        f"needs {steps:.2g} time steps with only {count} plate modes, more than the limit of "
-        f"{most}; {remedy}"
+        f"effects.inertia: the sphere stays on the plate for {long.shown} s, which needs at least "
+        f"{long.steps:.2g} time steps with the {long.count} plate modes{why}, more than the limit "
+        f"of {long.most}; {remedy}"
     )
 
 
@@ -237,11 +278,8 @@ def _slower(law: ContactLaw, tolerance: float, limit: float, swing: float) -> st
 
     def simulable(speed: float) -> float:
         """Return a speed, or 0 if it needs too many time steps."""
-        try:
-            _fitting(replace(law, model=replace(law.model, v0=speed)), tolerance)
-        except SceneError:
-            return 0.0
-        return speed
+        slow = replace(law, model=replace(law.model, v0=speed))
+        return 0.0 if _too_long(slow, tolerance) else speed
 
     speed = simulable(speed) if speed else 0.0
     if not speed:

@@ -98,7 +98,8 @@ def _impact(
     """Return the impact of `impact` within a budget of work."""
     if math.isfinite(need):
         check_resolving(law)
-    count, used = slow_count(law, time_tolerance(goal)), with_enough_shapes(law, need)
+    timed = need if "contact_time" in outputs else math.inf
+    count, used = slow_count(law, time_tolerance(goal), timed), with_enough_shapes(law, need)
     if not count:
         free = not (law.model.inertia.modes or law.model.inertia.infinite_plate)
         try:

@@ -129,7 +129,7 @@ class Long(NamedTuple):
         Least time in contact [s].
     shown
         The expected or the least time on the plate, in words.
-    count
+    modes
         Number of modes for which it lasts too long.
     steps, most
         Number of time steps that they need at least, and the largest number.
@@ -137,7 +137,7 @@ class Long(NamedTuple):
 
     time: float
     shown: str
-    count: int
+    modes: int
     steps: float
     most: int
 
@@ -169,7 +169,7 @@ def slow_count(law: ContactLaw, tolerance: float, timed: float = math.inf) -> in
     lowest, count = branching(law, "A0"), FEWEST
     steps, most = _steps(lowest, count, tolerance, long.time, FEWER)
     if steps > most:
-        raise _rejected(law, long._replace(count=count, steps=steps, most=most))
+        raise _rejected(law, long._replace(modes=count, steps=steps, most=most))
     while steps <= most and (more := math.ceil(MORE * count)) < affordable(lowest):
         steps, most = _steps(lowest, more, tolerance, long.time, FEWER, QUICK)
         count = more if steps <= most else count
@@ -180,18 +180,18 @@ def _too_long(law: ContactLaw, tolerance: float) -> Long | None:
     """Return why an impact needs more time steps than are allowed, if it does.
 
     The fastest mode limits the time step. The contacts of a heavy sphere last about half a period;
-    for any other sphere the least time in contact is used.
+    for any other sphere the least time in contact is used. The second run, which shows the error of
+    the first one, has twice as many modes.
     """
     ratio, swing = _heaviness(law)
     if ratio >= HEAVY:
-        count, fewer, time = 2 * affordable(law), 0, IN_CONTACT * swing
-        shown = f"about {swing:.2g}"
-    else:  # the first run, with the lowest branch
+        time, shown = IN_CONTACT * swing, f"about {swing:.2g}"
+    else:
         law = branching(law, "A0") if law.model.inertia.branches == "auto" else law
-        count, fewer = affordable(law), FEWER
-        time = time_in_contact(law, plate_of(law, min(count, STOPPED)).modes)
+        time = time_in_contact(law, plate_of(law, min(affordable(law), STOPPED)).modes)
         shown = f"at least about {time:.2g}"
-    steps, most = _steps(law, count, tolerance, time, fewer)
+    count = 2 * affordable(law)
+    steps, most = _steps(law, count, tolerance, time)
     return Long(time, shown, count, steps, most) if steps > most else None
 
 
@@ -212,7 +212,7 @@ def _rejected(law: ContactLaw, long: Long, why: str = "", other: str = "") -> Sc
         )
     return SceneError(
         f"effects.inertia: the sphere stays on the plate for {long.shown} s, which needs at least "
-        f"{long.steps:.2g} time steps with the {long.count} plate modes{why}, more than the limit "
+        f"{long.steps:.2g} time steps with the {long.modes} plate modes{why}, more than the limit "
         f"of {long.most}; {remedy}"
     )
 

@@ -14,6 +14,7 @@ from derivation.scene.dynamic.runs import WORK, Budget
 from derivation.scene.dynamic.slow_modes import slow_impact
 from derivation.scene.impact import selected_effects
 from derivation.scene.input.materials import engineering_constants
+from derivation.scene.quantity import ONE_DIGIT, rounded_up
 from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS
 
@@ -102,6 +103,21 @@ def test_heavy_ball_on_a_sheet_has_usable_results(result: Result) -> None:
     assert "contact time (first of 2) unknown" in text
     assert "Unknown: contact time: omitted effects or modes may change it" in text
     assert "error of max indentation, max force, max contact radius, restitution at most" in text
+
+
+def test_results_with_one_digit_are_stated_apart_from_more_accurate_ones() -> None:
+    """With 40 modes, contact time and force have one digit, other results have more."""
+    tables = FASTER["plastic, stretched"][1] | {"inertia": {"modes": 40, "branches": "A0"}}
+    result = simulate(read(tables))
+    rough = ("contact_time", "max_force")
+    for name in OUTPUTS:
+        assert (result.bound_of(name) >= ONE_DIGIT) == (name in rough), name
+        assert result.digits_of_result(name) == 1 or name not in rough, name
+    assert result.accuracy.bound == max(map(result.bound_of, OUTPUTS))
+    text = " ".join(str(result).split())
+    assert "relative error of max indentation, max contact radius, restitution at most" in text
+    for name in rough:
+        assert f", of {name.replace('_', ' ')} {rounded_up(result.bound_of(name))}" in text
 
 
 def test_heavy_ball_deflects_the_sheet_as_a_static_load_of_equal_work(result: Result) -> None:

@@ -16,6 +16,7 @@ from derivation.scene.dynamic import contact_sequence, flight, refinement, waves
 from derivation.scene.dynamic.contact_sequence import ImpactHistory
 from derivation.scene.dynamic.first_contact import IRREGULAR
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
+from derivation.scene.dynamic.stretching_needed import stretched
 from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.effects import WHOLE_PLATE
 from derivation.scene.model import InertiaSettings, Model
@@ -68,6 +69,24 @@ def test_contacts_before_an_endless_one_are_kept(
     assert len(part.contacts) == 1
     assert part.contacts[0].end == whole.contacts[0].end
     assert re.search(message, part.reason)
+
+
+@pytest.mark.parametrize("steps", [0.5, 1e9])
+def test_only_a_plate_that_does_not_stretch_may_have_no_inertia(
+    steps: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Stretching needs inertia. Few steps end the impact in the first flight, many after it."""
+    linear = ContactLaw(BALL, EFFECTS)
+    for law in (linear, stretched(linear)):
+        problem = problem_of(law, 8)
+        whole = contact_sequence.impact_history(problem, 10)
+        assert len(whole.contacts) > 1
+        work = (whole.contacts[0].tried + steps) * contact_sequence.weight_of(problem, 10)
+        with monkeypatch.context() as limited:
+            limited.setattr(contact_sequence, "CONTACTS", 1)
+            part = contact_sequence.impact_history(problem, 10, work=work)
+        assert not part.complete
+        assert ("effects.inertia = false" in part.remedy) == (law is linear)
 
 
 def test_contacts_before_a_later_error_are_kept(capsys: Any, tmp_path: Path) -> None:

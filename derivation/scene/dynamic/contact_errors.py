@@ -55,7 +55,9 @@ def too_many_steps(problem: DynamicProblem, t: float, most: int) -> EndlessError
 
 def or_quasi_static(problem: DynamicProblem) -> str:
     """Return the remedy of a plate without inertia; none if it stretches, which needs inertia."""
-    return "" if problem.middle_plane is not None else ", or set effects.inertia = false"
+    if problem.middle_plane is not None:
+        return ""
+    return ", or set effects.inertia = false for a quasi-static plate"
 
 
 def check_width(problem: DynamicProblem, radius: float) -> None:

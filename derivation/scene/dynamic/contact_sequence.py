@@ -9,7 +9,13 @@ import numpy as np
 
 from derivation.engine.activity import announce
 from derivation.scene.contact_law.yielding import Yielding
-from derivation.scene.dynamic.contact_errors import STUCK, check_width, no_solution, too_many_steps
+from derivation.scene.dynamic.contact_errors import (
+    STUCK,
+    check_width,
+    no_solution,
+    or_quasi_static,
+    too_many_steps,
+)
 from derivation.scene.dynamic.flight import next_contact, recovering_radius
 from derivation.scene.dynamic.next_element import (
     PHASE,
@@ -269,8 +275,7 @@ def _check_count(problem: DynamicProblem, runs: list[ContactRun], t: float) -> N
         raise IncompleteError(
             f"the sphere had not separated for good after {len(runs)} contacts and "
             f"{problem.T * t:.6g} s, the limit",
-            f"{damped}use a thicker plate or a lighter sphere, or set effects.inertia = false for "
-            "a quasi-static plate",
+            f"{damped}use a thicker plate or a lighter sphere{or_quasi_static(problem)}",
         )
 
 

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from derivation.scene.dynamic.contact_errors import or_quasi_static
 from derivation.scene.dynamic.oscillators import FreeMotion
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
 from derivation.scene.errors import EndlessError
@@ -87,8 +88,7 @@ def side_by_side(problem: DynamicProblem, t: float) -> EndlessError:
     """Return the error of a flight that has not ended after a time."""
     return EndlessError(
         f"sphere and plate moved side by side without contact for {problem.T * t:.6g} s, the limit",
-        "use a thicker plate or a lighter sphere, or set effects.inertia = false for a "
-        "quasi-static plate",
+        f"use a thicker plate or a lighter sphere{or_quasi_static(problem)}",
     )
 
 

@@ -69,8 +69,8 @@ class InertiaDetails:
     energies
         Energy of each mode after the last separation [J].
     mode_convergence
-        Relative change of each result since the run with half as many modes [1]; infinite if there
-        is no estimate, for example if all modes are slower than the contact.
+        Relative change of each result since the run with half as many modes [1], or the larger one
+        of this and the change since a quarter as many; infinite if there is no estimate.
     earlier_change
         Relative change of each result between the two runs before, with half and with a quarter as
         many modes [1]; 0 if there was none.

@@ -4,7 +4,7 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial.legendre import legder, leggauss, legvander
+from numpy.polynomial.legendre import legder, leggauss, legint, legvander
 
 from generated.arrays import Double as Array
 
@@ -75,9 +75,8 @@ def derivative(n: int) -> Array:
 @cache
 def up_to(n: int) -> Array:
     """Return the matrix of the integral of a polynomial from 0 to each node."""
-    x, w = gauss(n)
-    values = legvander(2.0 * np.outer(x, x) - 1.0, n - 1) @ _analysis(n)
-    return np.asarray(np.einsum("i,j,ijk->ik", x, w, values), dtype=np.float64)
+    integrals = legint(np.eye(n), lbnd=-1, axis=0)
+    return np.asarray(0.5 * legvander(leggauss(n)[0], n) @ integrals @ _analysis(n))
 
 
 @cache

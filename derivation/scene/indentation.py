@@ -1,17 +1,18 @@
 """Computes static contacts from given contact radii, forces or indentations.
 
 Every effect that applies to a static contact is included unless the scene disables it; there is no
-selection by a tolerance. Radii follow from forces and indentations by Newton's iteration in
-logarithms.
+selection by a tolerance. If the plate deflects so far that its middle plane stretches, this is
+included as well.
 """
 
 import math
 import sys
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
 from html import escape
 from numbers import Real
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from derivation.scene.contact_law.corrections import stretching
 from derivation.scene.contact_law.edge_curvature import edge_curvature_errors
 from derivation.scene.contact_law.edge_remainder import edge_warnings, largest_neighbours
 from derivation.scene.contact_law.finite_sphere import finite_sphere_error
-from derivation.scene.contact_law.law import ContactLaw, Shape
+from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import (
     check_numbers,
     check_radius,
@@ -29,19 +30,27 @@ from derivation.scene.contact_law.limits import (
     warnings_at,
 )
 from derivation.scene.contact_law.yield_warnings import static_warnings
-from derivation.scene.contact_law.yielding import yielding_of
+from derivation.scene.dynamic.model_error import curvature_error
+from derivation.scene.dynamic.static_stretching import counts, more_shapes
+from derivation.scene.dynamic.stretching_error import ROTATION
 from derivation.scene.effects import EFFECTS
 from derivation.scene.errors import SceneError
 from derivation.scene.input.messages import shown
 from derivation.scene.input.units import unit_warnings, with_unit_warnings
 from derivation.scene.model import model_of
-from derivation.scene.numerics.crossing import last_true
 from derivation.scene.output.html import html_table
 from derivation.scene.quantity import up_to
 from derivation.scene.scene import Scene
 from derivation.scene.selection.selection import check_enabled
+from derivation.scene.static_contact import (
+    UNITS,
+    Loaded,
+    in_words,
+    loaded,
+    radius_from,
+    radius_of,
+)
 
-UNITS = {"contact_radius": "m", "force": "N", "indentation": "m"}
 STIFFNESS = 4.0 / 3.0
 """Relative change of the stiffness over that of the force, at equal indentation, if the relative
 change of the indentation at equal force is proportional to a/R."""
@@ -52,9 +61,6 @@ HEADS = (
 MOST_SHOWN, UNLIKE = 20, 0.5
 """Largest number of contacts whose model errors are all shown, and smallest over largest model
 error below which they are."""
-_STEPS, _CLOSE, _FOUND, _HALVINGS = 60, 4e-16, 1e-12, 60
-"""Largest number of Newton's steps; relative step that ends the iteration; largest relative step of
-an accepted result; number of halvings of an interval."""
 Values = float | Iterable[float]
 
 
@@ -73,10 +79,15 @@ class StaticContact:
     max_pressure
         Pressure at the centre of the contact [Pa]; where the contact yields, the limit 1.6 Y.
     model_error
-        Largest relative error of any of these by the model [1], by the edge of the plate and by its
-        stretching; infinite if that of the edge is unknown.
+        Largest relative error of any of these by the model [1]; infinite if that by the edge of the
+        plate is unknown.
+    force_error
+        The same of force, indentation and stiffness alone, without radius and pressure.
     warnings
         Warnings about validity.
+    stretched
+        Whether stretching of the plate's middle plane is included; it is negligible otherwise,
+        unless the scene disables it.
     """
 
     contact_radius: float
@@ -85,12 +96,15 @@ class StaticContact:
     stiffness: float
     max_pressure: float
     model_error: float = 0.0
+    force_error: float = 0.0
     warnings: tuple[str, ...] = ()
+    stretched: bool = False
 
     def to_json(self) -> dict[str, Any]:
         """Return the attributes as a dictionary, in SI units; an unknown model error is None."""
-        error = self.model_error if math.isfinite(self.model_error) else None
-        return asdict(self) | {"model_error": error, "warnings": list(self.warnings)}
+        errors = {name: getattr(self, name) for name in ("model_error", "force_error")}
+        known = {name: x if math.isfinite(x) else None for name, x in errors.items()}
+        return asdict(self) | known | {"warnings": list(self.warnings)}
 
 
 class StaticContacts(tuple[StaticContact, ...]):
@@ -104,15 +118,19 @@ class StaticContacts(tuple[StaticContact, ...]):
 
     @property
     def model_note(self) -> str:
-        """The largest model error, or those of a few contacts if they differ; empty without one."""
+        """The largest model error, or those of a few contacts if they differ; empty without one.
+
+        That of force, indentation and stiffness is added if it is much smaller.
+        """
         errors = [contact.model_error for contact in self]
         if not any(errors):
             return ""
-        sizes = [up_to(error) if math.isfinite(error) else "unknown" for error in errors]
-        if len(set(sizes)) == 1 or len(sizes) > MOST_SHOWN or min(errors) > UNLIKE * max(errors):
-            return f"Model error: {sizes[errors.index(max(errors))]}"
-        plain = ", ".join(size.removeprefix("up to ") for size in sizes)
-        return paragraph(f"Model error of each row, at most: {plain}")
+        of_force = [contact.force_error for contact in self]
+        smaller = any(
+            one < UNLIKE * all_of_them for one, all_of_them in zip(of_force, errors, strict=True)
+        )
+        alone = f"; of force, indentation and stiffness: {_sizes(of_force)}" if smaller else ""
+        return paragraph(f"Model error: {_sizes(errors)}{alone}")
 
     def __str__(self) -> str:
         """Return the table as text, with model error and warnings."""
@@ -120,8 +138,15 @@ class StaticContacts(tuple[StaticContact, ...]):
 
     def to_text(self) -> str:
         """Return the table as text, with the model error."""
-        table = aligned(HEADS, self.rows())
-        return f"{table}\n\n{self.model_note}" if self.model_note else table
+        return "\n\n".join((aligned(HEADS, self.rows()), *self.notes))
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """The model error, and in how many contacts the plate stretches, if there is any."""
+        count = sum(contact.stretched for contact in self)
+        rows = "" if count == len(self) else f" in {count} of {len(self)} rows"
+        stretched = f"Stretching of the plate is included{rows}." if count else ""
+        return tuple(note for note in (self.model_note, stretched) if note)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -130,12 +155,19 @@ class StaticContacts(tuple[StaticContact, ...]):
 
     def _repr_html_(self) -> str:
         """Return the table for a notebook, with model error and warnings below it."""
-        error = f"<p>{self.model_note}</p>" if self.model_note else ""
         return (
             html_table(HEADS, self.rows())
-            + error
+            + "".join(f"<p>{note}</p>" for note in self.notes)
             + "".join(f"<p><b>Warning:</b> {escape(text)}</p>" for text in self.warnings)
         )
+
+
+def _sizes(errors: list[float]) -> str:
+    """Return the largest error, or those of a few rows if they differ, in words."""
+    sizes = [up_to(error) if math.isfinite(error) else "unknown" for error in errors]
+    if len(set(sizes)) == 1 or len(sizes) > MOST_SHOWN or min(errors) > UNLIKE * max(errors):
+        return sizes[errors.index(max(errors))]
+    return "up to " + ", ".join(size.removeprefix("up to ") for size in sizes) + " (by row)"
 
 
 def indent(
@@ -204,11 +236,15 @@ def indent(
 def static_law(scene: Scene) -> ContactLaw:
     """Return the law with every effect that applies to a static contact and is not disabled."""
     model, wanted = model_of(scene, quasi_static=True), scene.effects.model_dump()
+    stretched = not model.inertia.infinite_plate and not scene.effects.never_stretches
+    inertia = replace(model.inertia, stretching=stretched)
+    # Static deflections by the modes of the plate do not depend on its density.
+    model = replace(model, density=model.density or 1.0, inertia=inertia)
     check_enabled(scene, model)
     present = (
         effect.name
         for effect in EFFECTS
-        if effect.static and not effect.not_applicable_reason(model)
+        if (effect.static or effect.stretches) and not effect.not_applicable_reason(model)
     )
     return ContactLaw(model, frozenset(name for name in present if wanted.get(name) is not False))
 
@@ -236,20 +272,24 @@ def _numbers(name: str, values: Values) -> list[float]:
     return [float(value) for value in listed]
 
 
-def _in_words(name: str) -> str:
-    return name.replace("_", " ")
-
-
 def _contact(law: ContactLaw, name: str, value: float) -> StaticContact:
+    """Return the contact at a value; stretching is included if the plate deflects far enough."""
     model = law.model
-    given = name == "contact_radius" and not law.plastic
-    a = value if given else _radius(law, name, value)
-    key, remedy = f"{name} = {value:.6g} {UNITS[name]}", f"reduce the {_in_words(name)}"
-    check_radius(law, a, key, remedy)
-    at = _loaded(law, a)
+    key, remedy = f"{name} = {value:.6g} {UNITS[name]}", f"reduce the {in_words(name)}"
+    linear, at = law.only(lambda e: not e.stretches), None
+    with suppress(SceneError):  # the error of the stretched plate states a range that it reaches
+        at = _at(linear, name, value, key, remedy)
+    if at is None or counts(law, _deflection(linear, at)):
+        at = _at(law, name, value, key, remedy)
+        while more := more_shapes(law, at.change, at.depth):
+            near = radius_from(more, name, value, at.elastic_radius, last_radius(more))
+            law, at = more, loaded(more, near)
+    else:
+        law = linear
     check_radius(law, at.radius, key, remedy)
-    pressure = min(law.max_pressure(a), law.pressure_limit)
-    check_numbers(model, *at, pressure)
+    pressure = law.max_pressure(at.elastic_radius * at.wider) / at.wider**3
+    pressure = min(pressure, law.pressure_limit)
+    check_numbers(model, at.radius, at.force, at.depth, at.stiffness, pressure)
     # The given value is returned unchanged, without the rounding errors of the inversion.
     values = {"contact_radius": at.radius, "indentation": at.depth, "force": at.force} | {
         name: value
@@ -258,125 +298,52 @@ def _contact(law: ContactLaw, name: str, value: float) -> StaticContact:
         **values,
         stiffness=at.stiffness,
         max_pressure=pressure,
-        model_error=_model_error(law, at),
+        **_model_errors(law, at),
         warnings=(
             *warnings_at(law, at.radius, at.depth),
             *(edge_warnings(model, at.radius) if law.other_edge else ()),
             *static_warnings(law, at.radius),
         ),
+        stretched=at.change is not None,
     )
 
 
-def _model_error(law: ContactLaw, at: "_Loaded") -> float:
-    """Return the largest relative model error of the quantities of a contact [1].
+def _at(law: ContactLaw, name: str, value: float, key: str, remedy: str) -> Loaded:
+    """Return the contact of a law at a value; `key` and `remedy` are those of `check_radius`."""
+    given = name == "contact_radius"
+    if given:
+        check_radius(law, value, key, remedy)
+    a = value if given and not (law.plastic or law.stretches) else radius_of(law, name, value)
+    check_radius(law, a, key, remedy)
+    return loaded(law, a)
 
-    Edge, stretching, curvature, the finite size of the sphere and motion of the faces change the
-    indentation at a given force; the force at a given indentation changes by a power of that. The
-    stiffening S of a plate grows with the square of the deflection, so that the derivative of the
-    force with respect to it changes by 3 S.
+
+def _deflection(law: ContactLaw, at: Loaded) -> float:
+    """Return the deflection of the plate on the axis [m]."""
+    return at.depth - float(local_indentation(law, at.radius))
+
+
+def _model_errors(law: ContactLaw, at: Loaded) -> dict[str, float]:
+    """Return the largest relative model errors [1]: of all quantities, and without the pressure.
+
+    Edge, neglected stretching, curvature, the finite size of the sphere and motion of the faces
+    change the indentation at a given force; the force at a given indentation changes by a power of
+    that. On a plate that stretches, large rotations change the force at a given deflection, and the
+    omitted shapes the force of stretching. Like the stiffening S, these changes grow with the
+    square of the deflection, so that the derivative of the force with respect to it changes by
+    three times as much.
     """
-    model, curvature = law.model, edge_curvature_errors(law, at.radius)
-    deflection = at.depth - float(local_indentation(law, at.radius))
-    changes = curvature.results + 3.0 * float(stretching(model, deflection))
+    model, curvature, change = law.model, edge_curvature_errors(law, at.radius), at.change
+    changes, rotation, pressure = curvature.results, 0.0, curvature.pressure
+    if change is None:
+        changes += 3.0 * float(stretching(model, _deflection(law, at)))
+    else:
+        changes += 3.0 * change.error / at.depth
+        rotation = 3.0 * ROTATION * change.steepness
+        pressure += curvature_error(change.radius - 1.0)
     changes += STIFFNESS * float(finite_sphere_error(law, at.radius, at.depth))
     if law.other_edge:
         [edge] = largest_neighbours(model, np.array([at.radius]), model.eta)
         changes += float(edge) if np.isfinite(edge) else math.inf
-    return max(1.0, at.stiffness * at.depth / at.force) * changes + curvature.pressure
-
-
-class _Loaded(NamedTuple):
-    """Contact radius [m], force [N], indentation [m] and stiffness [N/m] of a static contact.
-
-    `radius_a`, `force_a` and `depth_a` are derivatives with respect to the contact radius of the
-    elastic law.
-    """
-
-    radius: float
-    force: float
-    depth: float
-    stiffness: float
-    radius_a: float
-    force_a: float
-    depth_a: float
-
-
-def _loaded(law: ContactLaw, a: float) -> _Loaded:
-    """Return the contact at a radius [m] of the elastic law; if it yields, its radius is larger."""
-    radii = np.array([a])
-    shape: Shape = law.at(radii)
-    stiffness, depth_a = law.stiffness(radii, shape), 2.0 * shape.slope * (radii / law.model.R)
-    force, depth = law.force(radii, shape), law.indentation(radii, shape)
-    force_a, radius, radius_a = stiffness * depth_a, radii, np.ones(1)
-    branch = yielding_of(law)
-    if branch is not None and a > branch.end:
-        branch = branch.begun()
-        more, more_a = branch.added(force, force_a)
-        depth, depth_a, radius = depth + more, depth_a + more_a, branch.widened(radii, force)
-        radius_a = branch.widening(radii, force, force_a)
-        stiffness = force_a / depth_a
-    numbers = radius, force, depth, stiffness, radius_a, force_a, depth_a
-    return _Loaded(*(float(number[0]) for number in numbers))
-
-
-def _radius(law: ContactLaw, name: str, value: float) -> float:
-    """Return the contact radius [m] of the elastic law for a force, indentation or radius.
-
-    Raises
-    ------
-    SceneError
-        If the value exceeds the range of the law, or the law gives no finite number.
-    """
-    R, (last, end) = law.model.R, _range_end(law, name)
-    largest, _ = _with_slope(law, name, last)
-    if not value < largest:
-        raise SceneError(
-            f"{name}: expected less than {largest:.6g} {UNITS[name]}, where the contact radius "
-            f"reaches {end}, got {value:.6g} {UNITS[name]}; reduce the {_in_words(name)}"
-        )
-    a = value if name == "contact_radius" else math.sqrt(R) * math.sqrt(value)
-    if name == "force":
-        a = float(law.hertz_radius(np.array(value)))
-    a = min(a, last)
-    for _ in range(_STEPS):
-        reached, slope = _with_slope(law, name, a)
-        check_numbers(law.model, reached, slope)
-        step = math.log(value / reached) / slope
-        if not abs(step) > _CLOSE:
-            break
-        a = min(a * math.exp(max(-1.0, min(1.0, step))), last)
-    if not abs(step) < _FOUND:
-        raise SceneError(
-            f"{name}: expected a value whose contact can be computed, got {value:.6g} "
-            f"{UNITS[name]}; use less extreme values"
-        )
-    return a
-
-
-def _range_end(law: ContactLaw, name: str) -> tuple[float, str]:
-    """Return the largest radius [m] up to which a quantity grows with it, and the radius in words.
-
-    Near the edge of a thick plate, the law may have no value or decrease before its limit.
-    """
-    last = last_radius(law)
-    if _grows(law, name, last):
-        return last, law.limit_in_words
-    low = last_true(lambda a: _grows(law, name, a), 0.0, last, _HALVINGS)
-    return low, f"{low:.6g} m, beyond which the law of this plate is not valid"
-
-
-def _grows(law: ContactLaw, name: str, a: float) -> bool:
-    """Return whether a quantity is positive and grows with the radius."""
-    value, slope = _with_slope(law, name, a)
-    return value > 0.0 and slope > 0.0
-
-
-def _with_slope(law: ContactLaw, name: str, a: float) -> tuple[float, float]:
-    """Return a quantity at a radius [m] of the elastic law, and d log(quantity)/d log(a) [1]."""
-    at = _loaded(law, a)
-    value, slope = {
-        "indentation": (at.depth, at.depth_a),
-        "force": (at.force, at.force_a),
-        "contact_radius": (at.radius, at.radius_a),
-    }[name]
-    return value, slope * a / value if value else math.nan  # 0 by underflow
+    error = max(1.0, at.stiffness * at.depth / at.force) * changes + rotation
+    return {"model_error": error + pressure, "force_error": error}

@@ -95,6 +95,17 @@ class MiddlePlane:
         pull[..., : self.slopes.shape[0]] = -self.unit * pulled
         return pull
 
+    def slope_of_forces(self, q: Array) -> Array:
+        """Return the derivative of the force on each shape with respect to each deflection.
+
+        It is for the deflections of the stretched shapes at one time; no eigenvalue is positive.
+        """
+        slope, square = self.squares(q)
+        turned = self.slopes * slope
+        by_tension = (self.slopes * (square @ self.tension)) @ self.slopes.T
+        by_slope = 2.0 * turned @ self.tension @ turned.T
+        return np.asarray(-self.unit * (by_tension + by_slope))
+
     def energy(self, q: Array) -> Array:
         """Return the energy of stretching for deflections, along the last axis."""
         square = self.squares(q)[1]

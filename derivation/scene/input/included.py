@@ -25,9 +25,10 @@ class Effects(Table):
     bending, finite_thickness, finite_radius, edge, inertia, damping
         Effects of the plate, with the same values.
     stretching
-        Whether the middle plane of the plate stretches, with the same values. It requires inertia,
-        and a plate with a density and of finite extent. With "auto" it is included if, without it,
-        the model error of a result would be about 30 % or more.
+        Whether the middle plane of the plate stretches, with the same values. In an impact it
+        requires inertia, and a plate with a density and of finite extent. With "auto" it is
+        included if, without it, the model error of a result would be about 30 % or more. Static
+        contacts include it unless it is False.
     compare_paper_motion
         Whether to print the paper's perturbation motion, too; by default False.
 
@@ -80,6 +81,11 @@ class Effects(Table):
     def stretches(self) -> bool:
         """Whether the scene enables stretching of the middle plane."""
         return self.stretching is True
+
+    @property
+    def never_stretches(self) -> bool:
+        """Whether the scene disables stretching of the middle plane."""
+        return self.stretching is False
 
     @property
     def may_stretch(self) -> bool:

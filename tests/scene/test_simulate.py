@@ -198,7 +198,7 @@ def test_indent_accepts_a_single_number() -> None:
     assert row.force == 10.0
     assert row.to_json().keys() == {
         "contact_radius", "indentation", "force", "stiffness", "max_pressure", "model_error",
-        "warnings",
+        "force_error", "warnings", "stretched",
     }  # fmt: skip
 
 

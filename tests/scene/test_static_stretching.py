@@ -14,6 +14,7 @@ from tests.scene.large_rotations import Reduced, Shell, Theory
 
 EDGES = "clamped", "simply-supported", "paper"
 RADIUS = 0.05
+YIELDS = {"yield_stress": 2e7}
 
 
 def tables(edge: str, thickness: float, nu: float = 0.3, R: float = 0.005) -> dict[str, Any]:
@@ -129,9 +130,10 @@ def inverted(contacts: tuple[StaticContact, ...], name: str, scene: Any) -> list
     return [one.force for one in indent(scene, **{name: [getattr(c, name) for c in contacts]})]
 
 
-@pytest.mark.parametrize("edge", EDGES)
-def test_each_quantity_gives_the_same_contact(edge: str) -> None:
-    scene = read(tables(edge, 5e-4))
+@pytest.mark.parametrize(("edge", "yielding"), [*((edge, {}) for edge in EDGES), ("paper", YIELDS)])
+def test_each_quantity_gives_the_same_contact(edge: str, yielding: dict[str, float]) -> None:
+    plain = tables(edge, 5e-4)
+    scene = read(plain | {"plate": plain["plate"] | yielding})
     contacts = indent(scene, force=np.geomspace(1e-3, 5.0, 12))
     forces = [contact.force for contact in contacts]
     assert not contacts[0].stretched

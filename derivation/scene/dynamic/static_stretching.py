@@ -29,6 +29,9 @@ from generated.pressure_kernels import force_of_waves
 
 NEGLIGIBLE = 1e-4
 """Relative stiffening below which stretching is neglected; the model error then includes it."""
+THIN = 0.05
+"""Half-thickness over plate radius up to which stretching is included: thicker plates were not
+compared with other solutions."""
 ACCURATE, MOST_SHAPES = 1e-4, 192
 """Error by the shapes that do not stretch, over the indentation, above which more shapes are used,
 and largest number of shapes."""
@@ -134,7 +137,7 @@ class StretchedPlate:
         """
         for _ in range(STEPS):
             at = self.contact.at(np.array([a]))
-            step = (float(at.force[0]) - force) / float(at.force_a[0])
+            step = float((at.force[0] - force) / at.force_a[0])
             if not abs(step) > CLOSE * a:
                 return a
             a = min(a - step, self.contact.top)
@@ -154,7 +157,7 @@ class StretchedPlate:
     def _guess(self, load: Array) -> Array:
         """Return the deflections without stretching times a factor, with the least energy."""
         linear = self.compliance * load
-        cubic, part = 4.0 * float(self.plane.energy(linear)) / float(load @ linear), 1.0
+        cubic, part = float(4.0 * self.plane.energy(linear) / (load @ linear)), 1.0
         for _ in range(STEPS):
             part -= (part + cubic * part**3 - 1.0) / (1.0 + 3.0 * cubic * part * part)
         return part * linear
@@ -177,7 +180,8 @@ def counts(law: ContactLaw, deflection: float) -> bool:
     deflection
         Deflection of the plate on the axis without stretching [m].
     """
-    if not law.stretches or not stretching(law.model, deflection) > NEGLIGIBLE:
+    thin = law.stretches and law.model.eta <= THIN
+    if not thin or not stretching(law.model, deflection) > NEGLIGIBLE:
         return False
     return _plate_of(law, law.model.inertia.shapes) is not None
 

@@ -99,7 +99,7 @@ def test_edge_acts_like_a_change_of_sphere_curvature(h: float, edge: float, part
 
 def contacts(radius: float, edge: str, nu: float, spherical: bool) -> list[StaticContact]:
     """Return static contacts with radii up to 3/2 of the plate thickness, which is 4 mm."""
-    effects = pc.Effects(non_hertzian_pressure=True, spherical_profile=spherical)
+    effects = pc.Effects(non_hertzian_pressure=True, spherical_profile=spherical, stretching=False)
     scene = pc.Scene(
         sphere=pc.Sphere(radius=0.3, density=7800),
         plate=pc.Plate(

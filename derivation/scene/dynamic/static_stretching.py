@@ -106,6 +106,8 @@ class StretchedPlate:
         """Return the changes at a force [N], whose contact radius without stretching is a [m]."""
         a = self._radius(force, a)
         at = self.contact.at(np.array([a]))
+        if not at.force_a[0] > 0.0:  # beyond the tables, or by underflow
+            return Change(*4 * (math.nan,))
         load, weights = at.modal_forces[0] / self.force, 1.0 + at.weights_less_one[0]
         linear = self.compliance * load
         q, system = self._deflections(load)
@@ -116,7 +118,7 @@ class StretchedPlate:
             self.depth * float(weights @ less),
             curved / float(at.force_a[0]) + self.depth * float(weights @ faster) / self.force,
             self._wider(force, a, curved),
-            fourth / second * (self.depth / self.contact.modes.b) ** 2,
+            (fourth / second if second else 0.0) * (self.depth / self.contact.modes.b) ** 2,
         )
 
     def _wider(self, force: float, a: float, curved: float) -> float:

@@ -201,10 +201,10 @@ def advice_for_curvature(problem: DynamicProblem) -> str:
     first = problem.inverse_modal_mass[problem.by_speed[:1]]
     # A quasi-static plate does not stretch.
     if not np.any(first > HEAVY) or problem.middle_plane is not None:
-        return "use a smaller sphere or a thicker plate"
+        return "use a smaller sphere or a thicker plate, or reduce impact.speed"
     return (
-        "use a smaller sphere or a thicker plate, or try effects.inertia = false: for so heavy a "
-        "sphere the plate is nearly quasi-static"
+        "use a smaller sphere or a thicker plate, reduce impact.speed, or try effects.inertia = "
+        "false: for so heavy a sphere the plate is nearly quasi-static"
     )
 
 

@@ -17,7 +17,15 @@ from derivation.scene.output.error_causes import (
     causes,
 )
 from derivation.scene.output.result_errors import largest_within_error, stated_accuracy, unknown
-from derivation.scene.quantity import digits_of, percent, prefixed, rounded_up, significant, up_to
+from derivation.scene.quantity import (
+    counted,
+    digits_of,
+    percent,
+    prefixed,
+    rounded_up,
+    significant,
+    up_to,
+)
 
 if TYPE_CHECKING:
     from derivation.scene.dynamic.wave_motion import DynamicImpact
@@ -86,7 +94,8 @@ def _remarks(result: "Result") -> Iterator[str]:
         for name, bound in others.items()
         if digits_of(bound)
     )
-    yield f"Accuracy: {accuracy.summary}{larger}{_model_error(result)}{_stress_error(result)}"
+    errors = f"{larger}{_model_error(result)}{_stress_error(result)}"
+    yield f"Accuracy: {accuracy.summary}{_without_bound(result)}{errors}"
     rise = risen_pressure(result.effects.law, result.max_contact_radius)
     if rise is not None:
         yield (
@@ -127,6 +136,22 @@ def _remarks(result: "Result") -> Iterator[str]:
         assumed = assumed_yield_stress(result.scene, pressure, bending)
         if assumed:
             yield f"Yield: {assumed}"
+
+
+def _without_bound(result: "Result") -> str:
+    """Return why the modes that the scene gives have no error bound; empty if there is one."""
+    motion = result.dynamics
+    if motion is None or not result.complete:
+        return ""
+    from derivation.scene.dynamic.mode_count import least_modes
+
+    if not (least := least_modes(motion.law)):
+        return ""
+    modes = motion.law.model.inertia.modes
+    return (
+        f", because the {counted(modes, 'mode')} of inertia.modes are slower than the contact "
+        f"(a useful bound needs about {2 * least})"
+    )
 
 
 def _model_error(result: "Result") -> str:

@@ -186,6 +186,23 @@ def test_the_largest_cause_is_named() -> None:
     assert sum(map(float, percentages)) == pytest.approx(100 * result.model_error, rel=0.02)
 
 
+def test_stretching_that_a_stress_needs_is_named_and_reduces_its_error() -> None:
+    drop: dict[str, dict[str, Any]] = {
+        "sphere": {"radius": 0.01, "material": "steel", "mass": 5.0},
+        "plate": {"radius": 0.075, "thickness": 6e-3, "material": "PMMA", "edge": "clamped"},
+        "impact": {"speed": 1.0, "gravity": 9.81},
+    }
+    linear = simulate(read(drop))
+    text = " ".join(answer.short(linear).split())
+    assert "stretching" not in linear.effects.included
+    named = "mostly by stretching of the plate, which effects.stretching = true includes"
+    assert text.count(named) == 1
+    assert "(estimated, mostly by stretching of the plate" in text
+    stretched = simulate(read(drop | {"effects": {"stretching": True}}))
+    assert stretched.tensile_stress.error < 0.2 * linear.tensile_stress.error
+    assert "estimated, mostly" not in " ".join(answer.short(stretched).split())
+
+
 def own_times_error(result: Result) -> float:
     """Return the largest model error by the retardation times of the bodies [1]."""
     motion = result.dynamics

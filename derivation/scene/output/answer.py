@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from derivation.engine.text import aligned, paragraph
 from derivation.scene.contact_law.yield_warnings import assumed_yield_stress, risen_pressure
-from derivation.scene.dynamic.stretching_error import USABLE
+from derivation.scene.dynamic.stretching_error import USABLE, stress_change
 from derivation.scene.output.error_causes import (
     MEASURED,
     PLATE,
@@ -37,6 +37,8 @@ named."""
 NEGLIGIBLE = 1e-3
 """Ratio of a part of the model error to the total, below which its cause is not named, except for
 the edge."""
+INCLUDES = "which effects.stretching = true includes"
+"""Remedy of a model error by stretching of the plate."""
 CONTACT_HEADS = "#start [s]", "#end [s]", "#impulse [N s]", "#peak force [N]", "#speed ratio"
 """Column heads of the table of contacts."""
 
@@ -164,13 +166,18 @@ def _model_error(result: "Result") -> str:
     notes = [name.replace("_", " ")] if others < UNLIKE * result.model_error else []
     if result.model_error >= USABLE:
         parts = causes(result, name)
-        largest, law = max(parts, key=parts.__getitem__), result.effects.law
+        largest = max(parts, key=parts.__getitem__)
         notes.append(f"mostly by {_in_words(result)[largest]}")
-        can_stretch = law.dynamic and not (law.stretches or law.model.inertia.infinite_plate)
-        if largest == STRETCHING and can_stretch:
-            notes.append("which effects.stretching = true includes")
+        if largest == STRETCHING and _can_stretch(result):
+            notes.append(INCLUDES)
     remark = f" ({', '.join(notes)})" if notes else ""
     return f", model error {up_to(result.model_error)}{remark}"
+
+
+def _can_stretch(result: "Result") -> bool:
+    """Return whether the plate does not stretch, but can."""
+    law = result.effects.law
+    return law.dynamic and not (law.stretches or law.model.inertia.infinite_plate)
 
 
 def _with_largest_error(result: "Result") -> str:
@@ -199,7 +206,13 @@ def _stress_error(result: "Result") -> str:
     error = result.bound_of("max_tensile_stress") + result.tensile_stress.error
     if result.dynamics is None or not math.isfinite(error):
         return ""
-    return f"; of max tensile stress {up_to(error)} (estimated)"
+    remark = "estimated"
+    if error >= USABLE and _can_stretch(result):
+        by_stretching = stress_change(result.effects.law, result.dynamics)
+        if by_stretching >= 0.5 * error:
+            said = INCLUDES in _model_error(result)
+            remark += f", mostly by stretching of the plate{'' if said else f', {INCLUDES}'}"
+    return f"; of max tensile stress {up_to(error)} ({remark})"
 
 
 def model_note(result: "Result") -> str:

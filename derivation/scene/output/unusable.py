@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from derivation.scene.contact_law.corrections import stretching
 from derivation.scene.dynamic.stretching_error import USABLE, Deflections
+from derivation.scene.effects.effect import Results
 from derivation.scene.output.error_causes import (
     SMALLEST,
     deflections_of_result,
@@ -15,12 +16,17 @@ from derivation.scene.output.error_causes import (
 )
 from derivation.scene.quantity import NO_DIGITS, percent, prefixed, up_to
 from derivation.scene.scene import OUTPUTS
+from derivation.scene.selection.effect_selection import NO_GROWTH
+from derivation.scene.selection.method_selection import growth_of
 
 if TYPE_CHECKING:
     from derivation.scene.result import Result
 
 STEPS = 30
 """Number of bisections for the part of a deflection or a contact radius."""
+GROWN = 2.0
+"""Growth of the errors by vibration of the plate above which two speeds are named: a slower sphere
+may be met again or not [1]."""
 THICKER = 2.5
 """Power of the thickness by which the deflection over it decreases: w = v0 sqrt(m/k) under a heavy
 sphere, on a plate of stiffness k ~ H^3. Under a light sphere it decreases faster, as H^-3. On a
@@ -174,14 +180,22 @@ def _by_sphere(result: "Result") -> str:
     error = max(sphere_errors(result).values())
     if error < NO_DIGITS:
         return ""
-    part = _largest(lambda part: max(sphere_errors(result, part).values()) <= USABLE)
-    # In a Hertzian contact the radius is proportional to the power 2/5 of the speed.
-    speed = " ".join(prefixed(result.model.v0 * part**2.5, "m/s", 2))
+    speed = _speed_of_sphere(result, growth_of(result.dynamics))
+    if max(growth_of(result.dynamics)) > GROWN:
+        once = _speed_of_sphere(result, NO_GROWTH)
+        speed = f"{once} if the plate does not meet the sphere again, otherwise {speed}"
     return (
         f"The contact radius is {result.max_contact_radius / float(result.model.R):.2g} of the "
         "sphere's radius, and the model treats the sphere as a half-space "
         f"(error {up_to(error)}). Speed for an error of about {percent(USABLE)}: {speed}."
     )
+
+
+def _speed_of_sphere(result: "Result", growth: Results) -> str:
+    """Return the speed at which the finite size of the sphere is small enough."""
+    part = _largest(lambda part: max(sphere_errors(result, part, growth).values()) <= USABLE)
+    # In a Hertzian contact the radius is proportional to the power 2/5 of the speed.
+    return " ".join(prefixed(result.model.v0 * part**2.5, "m/s", 2))
 
 
 def _part(result: "Result", deflections: Deflections, name: str, most: float) -> float:

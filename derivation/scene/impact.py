@@ -19,6 +19,7 @@ from derivation.scene.contact_law.limits import (
 from derivation.scene.contact_law.stress_limits import pressure_warnings, stress_warnings
 from derivation.scene.contact_law.yield_warnings import impact_warnings
 from derivation.scene.dynamic.contact_warnings import (
+    branch_warnings,
     duration_warnings,
     fall_warnings,
     grazing_warnings,
@@ -167,9 +168,14 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
         *ambiguity_warnings(scene),
     )
     if motion is not None:
+        from derivation.scene.dynamic.mode_count import needs_infinite_plate
+
         speeds = [touch.relative_approach_speed for touch in motion.inertia.contacts]
         warnings += grazing_warnings(speeds, motion.least)
-        warnings += duration_warnings(motion.inertia.jump)
+        warnings += duration_warnings(motion.inertia.jump, math.isfinite(stated.contact_time))
+        omitted = max(motion.inertia.omitted_branch_error)
+        if law.model.inertia.branches == "auto" and needs_infinite_plate(motion.law):
+            warnings += branch_warnings(omitted)
         jumps = (*jump_warnings(law, motion), *unlike_jump_warnings(law, motion))
         warnings += jumps or model_jump_warnings(motion.decisive_change, errors["max_force"])
         rebound = motion.restitution * model.v0

@@ -261,7 +261,7 @@ def model_of(scene: Scene, quasi_static: bool = False) -> Model:
         scene = fitted(scene)
     model = numbers_of(scene)
     if model.inertia.infinite_plate and model.density and not quasi_static:
-        model = replace(model, b=_infinite_plate_radius(model), edge="paper")
+        model = replace(model, b=infinite_plate_radius(model), edge="paper")
     for name, value in zip(NUMBERS, model.numbers, strict=True):
         if not math.isfinite(value) or (value <= 0 and name != "lam"):
             raise SceneError(
@@ -325,7 +325,7 @@ def _smaller(one: float, other: float) -> float:
     return float(lesser) if np.ndim(lesser) == 0 else lesser
 
 
-def _infinite_plate_radius(model: Model) -> float:
+def infinite_plate_radius(model: Model) -> float:
     """Return a first guess of the radius [m] from which no wave returns during the contact."""
     time = scales.time_unit(model) * (HERTZ_TIME + TIME_BY_ZENER * scales.zener_number(model))
     return max(model.shear_speed * time, 4.0 * model.h)

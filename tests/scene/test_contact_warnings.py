@@ -1,12 +1,13 @@
 """Warnings about a sphere that its weight returns to a plate that still vibrates."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
 import platecontact as pc
 import pytest
 
-from derivation.scene.dynamic.contact_warnings import fall_warnings
+from derivation.scene.dynamic.contact_warnings import duration_warnings, fall_warnings
 
 G = 1.3174
 """Gravitational acceleration at which the sphere rises less than the plate deflects [m/s^2]."""
@@ -53,6 +54,23 @@ def test_a_fall_within_the_error_of_the_speed_is_possible() -> None:
     [text] = fall_warnings(9.81, 0.1, 0.9 * rise, error=0.06)
     assert "may return (speed known to 6 %) the sphere to a moving plate" in text
     assert not fall_warnings(9.81, 0.1, 0.9 * rise, error=0.05)
+    [text] = fall_warnings(9.81, 0.1, 0.1 * rise, error=12.0)
+    assert "may return (speed unknown) the sphere" in text
     assert not fall_warnings(0.0, 0.1, rise, error=2.0)
     [text] = fall_warnings(9.81, 0.1, 1.1 * rise, error=0.06)
     assert "the weight returns the sphere" in text
+
+
+def test_a_jump_of_the_duration_is_part_of_its_error_only_if_it_has_one() -> None:
+    scene = pc.Scene(
+        sphere=pc.Sphere(radius=0.02, material="steel"),
+        plate=pc.Plate(radius=0.2, thickness=0.01, material="PMMA", edge="clamped"),
+        impact=pc.Impact(speed=1.5),
+        inertia=pc.Inertia(modes=10, branches="A0"),
+    )
+    result = pc.simulate(scene)
+    assert math.isinf(result.bound_of("contact_time"))
+    [text] = [text for text in result.warnings if "the omitted modes" in text]
+    assert "error" not in text
+    [text] = duration_warnings(0.1, bounded=True)
+    assert text.endswith("change by 10 %, which its error includes")

@@ -123,6 +123,12 @@ def test_figure_shades_every_contact(result: Any) -> None:
     assert sorted(shaded) == [0, *[contacts] * 4]
     stacked = next(axes for axes in drawn.axes if "initial kinetic energy" in axes.get_ylabel())
     assert len(stacked.collections) == 3
+    # In contact the sphere is below this deflection.
+    assert any("without local indentation" in text for text in _labels(drawn))
+
+
+def _labels(drawn: Any) -> list[str]:
+    return [text for axes in drawn.axes for text in axes.get_legend_handles_labels()[1]]
 
 
 def test_animation_shows_the_motion_of_the_plate(tmp_path: Path, monkeypatch: Any) -> None:
@@ -165,6 +171,7 @@ def test_titles_of_an_animation_do_not_overlap(result: Any, monkeypatch: Any) ->
         time, other = (text.get_window_extent() for text in (drawn.axes[0].title, *drawn.texts))
         assert time.y1 < other.y0 or time.x1 < other.x0
         assert other.y1 < drawn.bbox.y1
+        assert "without local indentation" in drawn.axes[0].get_legend_handles_labels()[1][0]
         return ""
 
     monkeypatch.setattr(FuncAnimation, "to_jshtml", page)

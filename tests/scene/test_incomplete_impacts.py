@@ -15,12 +15,15 @@ from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import contact_sequence, flight, refinement, waves
 from derivation.scene.dynamic.contact_sequence import ImpactHistory
 from derivation.scene.dynamic.first_contact import IRREGULAR
+from derivation.scene.dynamic.mode_count import affordable
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
+from derivation.scene.dynamic.reach import Reach
+from derivation.scene.dynamic.runs import Budget, run_with
 from derivation.scene.dynamic.stretching_needed import stretched
 from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.effects import WHOLE_PLATE
 from derivation.scene.model import InertiaSettings, Model
-from derivation.scene.scene import IncompleteError
+from derivation.scene.scene import OUTPUTS, IncompleteError
 
 BALL = Model(
     R=0.02, m=0.25, v0=1.0, h=0.005, b=0.15, lam=40e9, mu=27e9, density=2700.0,
@@ -221,3 +224,21 @@ def test_all_runs_of_an_impact_count_towards_one_limit(monkeypatch: pytest.Monke
     assert sum(used) <= 0.9 * whole * (1.0 + 1e-12)  # sums are rounded
     assert result.inertia.complete
     assert result.inertia.modes < best.inertia.modes
+
+
+def test_coarser_runs_give_an_error_if_a_finer_one_exceeds_the_limit(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """An earlier version had too little work left for them, and called the impact incomplete."""
+    law = ContactLaw(replace(BALL, inertia=InertiaSettings(branches="A0")), EFFECTS)
+    reach = Reach(law, OUTPUTS, math.inf)
+    first = run_with(law, affordable(law), Budget(math.inf), 1e-8).impact_history.work
+    monkeypatch.setattr(refinement, "LONG", 1.0)
+    run = refinement.Refinement(law, 1e-9, reach, Budget(1.5 * first)).impact()
+    assert run.inertia.complete
+    finer = refinement.Refinement(law, 1e-9, reach, Budget(math.inf)).impact()
+    assert finer.inertia.modes > run.inertia.modes
+    for name in OUTPUTS:
+        change = abs(getattr(run, name) / getattr(finer, name) - 1.0)
+        assert change <= run.inertia.error((name,))
+    assert run.inertia.error(("max_indentation",)) < 0.5

@@ -104,7 +104,7 @@ BAD: list[tuple[Tables, str]] = [
     (tables({"material": "Table tennis"}, STEEL), "sphere.material|hollow"),
     (tables({"material": "hollow steel ball"}, STEEL), "sphere.material|hollow"),
     (tables(STEEL, {"material": 3}), "plate.material: |3"),
-    (tables({"material": "paper"}, STEEL), "sphere.material|mass = 72"),
+    (tables({"material": "paper"}, STEEL), "sphere.material|density = 7850"),
     (tables({"density": 1, "youngs_modulus": 1e9}, STEEL), "sphere.poissons_ratio"),
     (tables(STEEL | {"youngs_modulus": 1e9, "poissons_ratio": 0.3}, STEEL), "youngs_modulus"),
     (tables({"youngs_modulus": 1e9, "poissons_ratio": 0.3}, STEEL), "sphere.density"),

@@ -45,3 +45,15 @@ def test_error_of_the_constant_includes_the_model_error_of_the_measurement() -> 
     off = abs(solved(scene) / time - 1.0)
     assert 0.02 < off < error_of_constant(scene) < 0.5
     assert simulate(scene).model_error > error_of(scene)
+
+
+def test_unknown_constant_is_shown_without_a_unit() -> None:
+    """The retardation times differ so much that the model error exceeds 100 %."""
+    scene = {
+        "sphere": {"radius": 0.012, "material": "rubber"},
+        "plate": {"radius": 0.3, "thickness": 0.02, "material": "concrete"},
+        "impact": {"speed": 2.0},
+        "measured": {"restitution": 0.75, "solve_for": "retardation_time"},
+    }
+    note = simulate(read(scene)).measured_note
+    assert note.startswith("plate.retardation_time = unknown, from the restitution 0.75")

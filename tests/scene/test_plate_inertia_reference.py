@@ -115,6 +115,14 @@ def test_plates_without_a_model_error_are_rejected() -> None:
             simulate(read({**row["scene"], "effects": {"inertia": True}}))
 
 
+def test_message_on_an_edge_shows_an_error_above_the_limit() -> None:
+    """An earlier message read "at most 1 % ..., got 1 %" for a block of rubber."""
+    block = {"radius": 0.03, "thickness": 0.03, "material": "rubber", "edge": "clamped"}
+    sphere = {"radius": 0.01, "material": "steel"}
+    with pytest.raises(SceneError, match=r"at most 1 % of the indentation, got 1\.\d+ %"):
+        simulate(read({"sphere": sphere, "plate": block, "impact": {"speed": 1.0}}))
+
+
 def test_record_covers_the_range_of_the_model_error() -> None:
     plates = [row["scene"]["plate"] for row in DATA["impacts"]]
     assert len(plates) >= 40

@@ -9,12 +9,12 @@ import pytest
 from shared_scenes import EXAMPLES
 
 from derivation.scene import Result, SceneError, read, simulate
-from derivation.scene.dynamic import refinement, stretched_shapes, waves
+from derivation.scene.dynamic import contact_sequence, refinement, stretched_shapes, waves
 from derivation.scene.dynamic.contact_errors import too_many_steps
 from derivation.scene.dynamic.integration_error import integration_error
 from derivation.scene.dynamic.mode_convergence import nearly_meets, unchecked
 from derivation.scene.dynamic.reach import Reach
-from derivation.scene.dynamic.runs import Budget
+from derivation.scene.dynamic.runs import Budget, time_tolerance
 from derivation.scene.dynamic.wave_motion import DynamicImpact
 from derivation.scene.errors import ToleranceError
 from derivation.scene.scene import OUTPUTS
@@ -294,7 +294,22 @@ def test_a_plate_that_stretches_is_not_recommended_to_have_no_inertia(stretching
     history = run.impact_history
     remedies = (
         unchecked(history, history.problem, 4).remedy,
-        too_many_steps(history.problem, 1.0, 10).remedy,
+        too_many_steps(history.problem, 1.0, 10, 1e-9).remedy,
     )
     for remedy in remedies:
         assert ("effects.inertia = false" in str(remedy)) != stretching
+
+
+@pytest.mark.parametrize(("rtol", "named"), [(None, False), (1e-2, False), (1e-6, True)])
+def test_a_larger_tolerance_is_recommended_only_if_it_allows_longer_time_steps(
+    rtol: float | None, named: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """An earlier message recommended it for scenes without a tolerance."""
+    run = simulate(read(tomllib.loads((EXAMPLES / "glass_pane.toml").read_text()))).dynamics
+    assert run is not None
+    monkeypatch.setattr(contact_sequence, "ELEMENTS", 4)
+    with pytest.raises(SceneError, match="limit of 4 time steps") as error:
+        contact_sequence.impact_history(
+            run.impact_history.problem, 10, time_tolerance(waves.goal(rtol))
+        )
+    assert ("accuracy.rtol" in str(error.value)) == named

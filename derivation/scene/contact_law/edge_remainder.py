@@ -19,7 +19,7 @@ from derivation.engine.files import measurements
 from derivation.scene.errors import SceneError
 from derivation.scene.kernels import Numbers
 from derivation.scene.model import Model
-from derivation.scene.quantity import up_to
+from derivation.scene.quantity import up_to, upwards
 from generated.arrays import Double as Array
 
 LARGEST = 0.01
@@ -83,9 +83,9 @@ def edge_remainder(model: Model, a: float) -> float:
     if remainder > LARGEST:
         raise SceneError(
             f"plate.edge: expected a model error of the {model.edge} edge of at most 1 % of the "
-            f"indentation, got {100 * remainder:.2g} % at h/b = {model.eta:.4g}, nu = {nu:.3g}, "
-            f"a/b = {a / model.b:.4g} (h half-thickness, a contact radius, b plate radius); use a "
-            "larger plate, or set effects.edge = false"
+            f"indentation, got {upwards(100 * remainder, 3):g} % at h/b = {model.eta:.4g}, "
+            f"nu = {nu:.5g}, a/b = {a / model.b:.4g} (h half-thickness, "
+            "a contact radius, b plate radius); use a larger plate, or set effects.edge = false"
         )
     return remainder
 

@@ -294,7 +294,7 @@ def motion_warnings(
             f"plate deflection {100 * deflection:.3g} % of the indentation"
         )
     plate = model.inertia
-    echoing = dynamic and plate.branches == "all" and not plate.infinite_plate
+    echoing = dynamic and plate.branches == "all"
     if float(errors.shortest_time(contact_time)) < echoes and not echoing:
         waves = (
             "through-thickness wave reflections return during the contact, but the model neglects "

@@ -23,6 +23,8 @@ STUCK = 1e-7
 """Length of an element in x, over max(x, 1), below which the simulation ends if the element has no
 solution. In 75 impacts, shorter elements had a solution only after failures of elements longer than
 6e-5."""
+LOOSEST = 1e-8
+"""Largest tolerance of an element, also without a tolerance of the results [1]."""
 TOO_WIDE = 1.05
 """Contact radius over the limit of the law at which a simulation ends: with more modes, so wide a
 contact would not be within the limit either."""
@@ -41,9 +43,10 @@ SHARP = 0.05
 """Slope of the gap over that without vibration below which the contact is no longer circular."""
 
 
-def too_many_steps(problem: DynamicProblem, t: float, most: int) -> EndlessError:
-    """Return the error of a simulation with too many time steps."""
-    remedy = f"reduce inertia.modes, or increase accuracy.rtol{or_quasi_static(problem)}"
+def too_many_steps(problem: DynamicProblem, t: float, most: int, tolerance: float) -> EndlessError:
+    """Return the error of a simulation with too many time steps of a tolerance [1]."""
+    larger = ", or increase accuracy.rtol" if tolerance < LOOSEST else ""
+    remedy = f"reduce inertia.modes{larger}{or_quasi_static(problem)}"
     if math.isfinite(problem.first_echo):
         remedy = 'use a thicker plate or a lighter sphere, or remove extent = "infinite"'
     return EndlessError(
@@ -201,10 +204,10 @@ def advice_for_curvature(problem: DynamicProblem) -> str:
     first = problem.inverse_modal_mass[problem.by_speed[:1]]
     # A quasi-static plate does not stretch.
     if not np.any(first > HEAVY) or problem.middle_plane is not None:
-        return "use a smaller sphere or a thicker plate"
+        return "use a smaller sphere or a thicker plate, or reduce impact.speed"
     return (
-        "use a smaller sphere or a thicker plate, or try effects.inertia = false: for so heavy a "
-        "sphere the plate is nearly quasi-static"
+        "use a smaller sphere or a thicker plate, reduce impact.speed, or try effects.inertia = "
+        "false: for so heavy a sphere the plate is nearly quasi-static"
     )
 
 

@@ -371,7 +371,7 @@ def contact(
             tries, pieces = step + 1 - tried, tuple(elements)
             return ContactRun(start, ended, first, pieces, begin, after, tries, problem.yielding)
     else:
-        raise too_many_steps(problem, origin + x**ONSET, most)
+        raise too_many_steps(problem, origin + x**ONSET, most, tolerance)
     raise no_solution(problem, state, radius, problem.T * (origin + x**ONSET))
 
 

@@ -3,10 +3,12 @@
 import math
 from collections.abc import Sequence
 
-from derivation.scene.quantity import percent
+from derivation.scene.quantity import NO_DIGITS, percent
 
 GRAZING = 1e-3
 """Approach speed over impact speed, or force over peak force, of a grazing contact."""
+BRANCHES = 0.02
+"""Error by omitted wave branches from which a warning names an infinite plate [1]."""
 
 
 def grazing_warnings(speeds: Sequence[float], least: float) -> tuple[str, ...]:
@@ -32,19 +34,40 @@ def grazing_warnings(speeds: Sequence[float], least: float) -> tuple[str, ...]:
     return (text,)
 
 
-def duration_warnings(jump: float) -> tuple[str, ...]:
+def duration_warnings(jump: float, bounded: bool) -> tuple[str, ...]:
     """Warn of a first contact that more modes or wave branches may split, or join with the next.
 
     Parameters
     ----------
     jump
         Relative change of its duration if they do [1]; 0 if that is not expected.
+    bounded
+        Whether the duration has an error bound, which includes this change.
     """
     if not jump:
         return ()
     text = (
         "the omitted modes or wave branches may split the first contact or join it with the next "
-        f"one: contact_time may change by {percent(jump)}, which its error includes"
+        f"one: contact_time may change by {percent(jump)}"
+        f"{', which its error includes' if bounded else ''}"
+    )
+    return (text,)
+
+
+def branch_warnings(error: float) -> tuple[str, ...]:
+    """Warn of omitted wave branches that an infinite plate would include.
+
+    Parameters
+    ----------
+    error
+        Relative change of the results by the omitted branches [1].
+    """
+    if error < BRANCHES:
+        return ()
+    text = (
+        "the contact is too short for all wave branches on this plate; the omitted ones may change "
+        f"the results by {percent(error)}, which their error includes. No wave returns from the "
+        'edge in time: set extent = "infinite" in [inertia] to include all branches'
     )
     return (text,)
 
@@ -89,10 +112,14 @@ def fall_warnings(
     """
     if not (gravity and rebound_speed > 0.0):
         return ()
-    rise, known = 0.5 * rebound_speed**2 / gravity, error if math.isfinite(error) else 0.0
-    if rise * max(0.0, 1.0 - known) ** 2 > deflection:
+    rise = 0.5 * rebound_speed**2 / gravity
+    slower = max(0.0, 1.0 - error) if math.isfinite(error) else 1.0
+    if rise * slower**2 > deflection:
         return ()
-    returns = "returns" if rise <= deflection else f"may return (speed known to {percent(error)})"
+    returns = "returns"
+    if rise > deflection:
+        known = f"known to {percent(error)}" if error < NO_DIGITS else "unknown"
+        returns = f"may return (speed {known})"
     text = (
         f"after the impact the sphere rises by {rise:.2g} m, and the vibrating plate deflects "
         f"by up to {deflection:.2g} m: the weight {returns} the sphere to a moving plate, and the "

@@ -381,5 +381,5 @@ def unchecked(coarse: ImpactHistory, problem: DynamicProblem, fewer: int) -> Imp
         coarse,
         reason=f"the error of {coarse.problem.omega.size} modes is unknown, because the "
         f"{problem.omega.size} modes for its estimate exceed the limit of time steps and modes",
-        remedy=f"set inertia.modes = {fewer} and remove the tolerance{or_quasi_static(problem)}",
+        remedy=f"set inertia.modes = {fewer}, without a tolerance{or_quasi_static(problem)}",
     )

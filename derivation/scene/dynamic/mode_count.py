@@ -10,6 +10,7 @@ from derivation.scene import scales
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic.modal import free_modes
 from derivation.scene.errors import SceneError
+from derivation.scene.model import infinite_plate_radius
 
 PHASE = 12.5
 """omega That/max(1, lambda^(2/3)) of the fastest mode in the first run."""
@@ -99,6 +100,12 @@ def fast(law: ContactLaw, count: int) -> bool:
     return bool(free_modes(lowest, count).omega[-1] >= _highest(law))
 
 
+def least_modes(law: ContactLaw) -> int:
+    """Return how many modes are as fast as the contact, if those of the scene are not; else 0."""
+    modes = law.model.inertia.modes
+    return count_of(with_modes(law, 0)) if modes and not fast(law, modes) else 0
+
+
 def check_resolving(law: ContactLaw) -> None:
     """Raise an error if the number of modes of a scene is too small for any error bound.
 
@@ -108,10 +115,9 @@ def check_resolving(law: ContactLaw) -> None:
         If its modes are slower than the contact. The message names the smallest sufficient number,
         or twice as many: an automatic simulation of this number ends with twice as many.
     """
-    modes = law.model.inertia.modes
-    if not modes or fast(law, modes):
+    modes, least = law.model.inertia.modes, least_modes(law)
+    if not least:
         return
-    least = count_of(with_modes(law, 0))
     if least < MOST:
         remedy = (
             f"to resolve it, increase inertia.modes to {2 * least} (the tolerance may require "
@@ -129,6 +135,26 @@ def followed(law: ContactLaw, count: int) -> bool:
     """Return whether the modes are fast enough and not too many, or given by the scene."""
     afforded = mode_total(law, count) <= FURTHER * MANY
     return bool(law.model.inertia.modes) or (afforded and fast(law, count))
+
+
+def needs_infinite_plate(law: ContactLaw) -> bool:
+    """Return whether all wave branches can be dynamic on an infinite plate, but not on this one.
+
+    The radius of the plate must exceed that of a plate that represents an infinite one: then no
+    wave returns from its edge during the contact either.
+    """
+    model = law.model
+    if model.inertia.infinite_plate or law.stretches or law.viscous:
+        return False
+    wave, whole = infinite_plate_radius(model), branching(law, "all")
+    endless = replace(whole.model.inertia, infinite_plate=True)
+    part = replace(whole, model=replace(model, b=wave, edge="paper", inertia=endless))
+    return wave < model.b and not _all_followed(whole) and _all_followed(part)
+
+
+def _all_followed(every: ContactLaw) -> bool:
+    """Return whether the modes of a law with all branches are fast enough and not too many."""
+    return followed(every, finer(every, affordable(every)))
 
 
 def check_followed(law: ContactLaw, count: int) -> None:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic.contact_sequence import ENOUGH, ContactRun, ImpactHistory
+from derivation.scene.dynamic.mode_count import needs_infinite_plate
 from derivation.scene.dynamic.problem import DynamicProblem
 from derivation.scene.dynamic.results import dynamic_impact_of
 from derivation.scene.effects.effect import Changes
@@ -17,6 +18,7 @@ from derivation.scene.effects.inertia import higher_branch_error
 from derivation.scene.errors import SceneError
 from derivation.scene.scene import OUTPUTS
 
+INFINITE = ', or set extent = "infinite" in [inertia], because no wave returns in time'
 ROOM = 1.5
 """Tolerance over the change by omitted branches, from which a third of the tolerance remains for
 omitted modes."""
@@ -144,5 +146,5 @@ class Reach:
             )
         return (
             "the contact is too short for all wave branches, so that only the lowest is included",
-            "use a smaller or thinner plate",
+            f"use a smaller or thinner plate{INFINITE if needs_infinite_plate(self.law) else ''}",
         )

@@ -296,7 +296,8 @@ class Refinement:
         law, left = self.law, self.budget.left
         if law.model.inertia.modes or count < FOURTH or not fast(law, count):
             return None
-        compared, spare = list[DynamicImpact](), Budget(left)
+        compared = list[DynamicImpact]()
+        spare = Budget(max(left, run.impact_history.work))  # coarser runs together take less
         for fewer in (coarser(coarser(count)), coarser(count)):
             try:
                 coarse = run_with(law, fewer, spare, time_tolerance(LOOSE), FEWER)

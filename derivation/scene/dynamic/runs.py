@@ -8,6 +8,7 @@ import numpy as np
 from derivation.engine.threads import one_thread
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic import contact_sequence
+from derivation.scene.dynamic.contact_errors import LOOSEST
 from derivation.scene.dynamic.contact_sequence import ImpactHistory, expected_work
 from derivation.scene.dynamic.mode_convergence import unchecked
 from derivation.scene.dynamic.mode_count import MODES, branching, count_of
@@ -31,7 +32,7 @@ WORK = 4.5e7
 
 def time_tolerance(goal: float) -> float:
     """Return the tolerance of the time elements, small against the goal for more modes [1]."""
-    return min(1e-8, max(contact_sequence.TOLERANCE, 1e-3 * goal))
+    return min(LOOSEST, max(contact_sequence.TOLERANCE, 1e-3 * goal))
 
 
 @dataclass

@@ -27,7 +27,7 @@ class Sphere(Table):
     {'radius': 0.0125, 'density': 900.0, 'material': 'ice'}
     """
 
-    choices = ((("mass",), ("density",)),)
+    choices = ((("density",), ("mass",)),)
     options = ((("youngs_modulus", "poissons_ratio"), ("material",)),)
     stand_in = "material"
     radius: Positive = Field(description="sphere radius [m]", examples=[0.13])

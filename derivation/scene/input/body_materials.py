@@ -155,7 +155,7 @@ def material_problems(tables: Mapping[str, Any]) -> list[str]:
         elif table == "sphere" and material.density is None and _massless(tables[table]):
             problems.append(
                 f"sphere.material: expected a material of known density, got {shown(name)}; "
-                "add for example `mass = 72` to [sphere]"
+                "add for example `density = 7850` to [sphere]"
             )
     return problems
 

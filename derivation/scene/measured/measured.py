@@ -161,10 +161,10 @@ def in_words(scene: "Scene") -> str:
     wanted = scene.measured
     assert wanted is not None
     digits = min(DIGITS, digits_of(min(error_of_constant(scene), NO_BOUND)))
-    value, unit = prefixed(solved(scene), UNITS[wanted.solve_for], digits)
+    value = " ".join(filter(None, prefixed(solved(scene), UNITS[wanted.solve_for], digits)))
     specimen = "a thick block" if wanted.target == "block" else "the plate"
     return (
-        f"plate.{wanted.solve_for} = {value} {unit}, from the restitution "
+        f"plate.{wanted.solve_for} = {value}, from the restitution "
         f"{wanted.restitution:g} measured on {specimen} at "
         f"{wanted.tested_at or scene.impact.speed:g} m/s"
     )

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from derivation.engine.text import aligned, paragraph
 from derivation.scene.contact_law.yield_warnings import assumed_yield_stress, risen_pressure
-from derivation.scene.dynamic.stretching_error import USABLE
+from derivation.scene.dynamic.stretching_error import USABLE, stress_change
 from derivation.scene.output.error_causes import (
     MEASURED,
     PLATE,
@@ -17,7 +17,15 @@ from derivation.scene.output.error_causes import (
     causes,
 )
 from derivation.scene.output.result_errors import largest_within_error, stated_accuracy, unknown
-from derivation.scene.quantity import digits_of, percent, prefixed, rounded_up, significant, up_to
+from derivation.scene.quantity import (
+    counted,
+    digits_of,
+    percent,
+    prefixed,
+    rounded_up,
+    significant,
+    up_to,
+)
 
 if TYPE_CHECKING:
     from derivation.scene.dynamic.wave_motion import DynamicImpact
@@ -29,6 +37,8 @@ named."""
 NEGLIGIBLE = 1e-3
 """Ratio of a part of the model error to the total, below which its cause is not named, except for
 the edge."""
+INCLUDES = "which effects.stretching = true includes"
+"""Remedy of a model error by stretching of the plate."""
 CONTACT_HEADS = "#start [s]", "#end [s]", "#impulse [N s]", "#peak force [N]", "#speed ratio"
 """Column heads of the table of contacts."""
 
@@ -86,7 +96,8 @@ def _remarks(result: "Result") -> Iterator[str]:
         for name, bound in others.items()
         if digits_of(bound)
     )
-    yield f"Accuracy: {accuracy.summary}{larger}{_model_error(result)}{_stress_error(result)}"
+    errors = f"{larger}{_model_error(result)}{_stress_error(result)}"
+    yield f"Accuracy: {accuracy.summary}{_without_bound(result)}{errors}"
     rise = risen_pressure(result.effects.law, result.max_contact_radius)
     if rise is not None:
         yield (
@@ -129,6 +140,22 @@ def _remarks(result: "Result") -> Iterator[str]:
             yield f"Yield: {assumed}"
 
 
+def _without_bound(result: "Result") -> str:
+    """Return why the modes that the scene gives have no error bound; empty if there is one."""
+    motion = result.dynamics
+    if motion is None or not result.complete:
+        return ""
+    from derivation.scene.dynamic.mode_count import least_modes
+
+    if not (least := least_modes(motion.law)):
+        return ""
+    modes = motion.law.model.inertia.modes
+    return (
+        f", because the {counted(modes, 'mode')} of inertia.modes are slower than the contact "
+        f"(a useful bound needs about {2 * least})"
+    )
+
+
 def _model_error(result: "Result") -> str:
     """Return the largest model error, with the result that has it if others have less."""
     if not result.model_error:
@@ -139,13 +166,18 @@ def _model_error(result: "Result") -> str:
     notes = [name.replace("_", " ")] if others < UNLIKE * result.model_error else []
     if result.model_error >= USABLE:
         parts = causes(result, name)
-        largest, law = max(parts, key=parts.__getitem__), result.effects.law
+        largest = max(parts, key=parts.__getitem__)
         notes.append(f"mostly by {_in_words(result)[largest]}")
-        can_stretch = law.dynamic and not (law.stretches or law.model.inertia.infinite_plate)
-        if largest == STRETCHING and can_stretch:
-            notes.append("which effects.stretching = true includes")
+        if largest == STRETCHING and _can_stretch(result):
+            notes.append(INCLUDES)
     remark = f" ({', '.join(notes)})" if notes else ""
     return f", model error {up_to(result.model_error)}{remark}"
+
+
+def _can_stretch(result: "Result") -> bool:
+    """Return whether the plate does not stretch, but can."""
+    law = result.effects.law
+    return law.dynamic and not (law.stretches or law.model.inertia.infinite_plate)
 
 
 def _with_largest_error(result: "Result") -> str:
@@ -174,7 +206,13 @@ def _stress_error(result: "Result") -> str:
     error = result.bound_of("max_tensile_stress") + result.tensile_stress.error
     if result.dynamics is None or not math.isfinite(error):
         return ""
-    return f"; of max tensile stress {up_to(error)} (estimated)"
+    remark = "estimated"
+    if error >= USABLE and _can_stretch(result):
+        by_stretching = stress_change(result.effects.law, result.dynamics)
+        if by_stretching >= 0.5 * error:
+            said = INCLUDES in _model_error(result)
+            remark += f", mostly by stretching of the plate{'' if said else f', {INCLUDES}'}"
+    return f"; of max tensile stress {up_to(error)} ({remark})"
 
 
 def model_note(result: "Result") -> str:

@@ -51,17 +51,22 @@ def errors_of(result: "Result", deflections: Deflections) -> dict[str, float]:
     return {name: error + measured for name, error in errors.items()}
 
 
-def sphere_errors(result: "Result", part: float = 1.0) -> dict[str, float]:
+def sphere_errors(
+    result: "Result", part: float = 1.0, growth: Results | None = None
+) -> dict[str, float]:
     """Return the model errors by the finite size of the sphere and the motion of the faces.
 
     Parameters
     ----------
     part
         Part of the contact radius [1]; the indentation is proportional to its square.
+    growth
+        Factors by which vibration of the plate increases the errors [1]; None for those of the
+        impact.
     """
     time, depth, force, a, restitution = numbers_of(result)
     numbers = time, part**2 * depth, force, part * a, restitution
-    growth = growth_of(result.dynamics)
+    growth = growth_of(result.dynamics) if growth is None else growth
     return dict(
         zip(OUTPUTS, finite_sphere_errors(result.effects.law, numbers, growth), strict=True)
     )

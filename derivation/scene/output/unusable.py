@@ -4,7 +4,9 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from derivation.scene.contact_law.corrections import stretching
 from derivation.scene.dynamic.stretching_error import USABLE, Deflections
+from derivation.scene.effects.effect import Results
 from derivation.scene.output.error_causes import (
     SMALLEST,
     deflections_of_result,
@@ -14,15 +16,22 @@ from derivation.scene.output.error_causes import (
 )
 from derivation.scene.quantity import NO_DIGITS, percent, prefixed, up_to
 from derivation.scene.scene import OUTPUTS
+from derivation.scene.selection.effect_selection import NO_GROWTH
+from derivation.scene.selection.method_selection import growth_of
 
 if TYPE_CHECKING:
     from derivation.scene.result import Result
 
 STEPS = 30
 """Number of bisections for the part of a deflection or a contact radius."""
+GROWN = 2.0
+"""Growth of the errors by vibration of the plate above which two speeds are named: a slower sphere
+may be met again or not [1]."""
 THICKER = 2.5
 """Power of the thickness by which the deflection over it decreases: w = v0 sqrt(m/k) under a heavy
-sphere, on a plate of stiffness k ~ H^3. Under a light sphere it decreases faster, as H^-3."""
+sphere, on a plate of stiffness k ~ H^3. Under a light sphere it decreases faster, as H^-3. On a
+plate that stretches, the error depends on the slope and not on the deflection over the thickness,
+and stretching limits the deflection, see `_thicker`."""
 
 
 def unusable(result: "Result") -> tuple[str, ...]:
@@ -94,9 +103,13 @@ def _by_stretching(result: "Result") -> str:
     if not parts:
         return ""
     thickness, remedies, slow = 2.0 * float(model.h), [], False
+    weight, size = model.m * model.gravity / result.max_force, 0.0
+    if result.effects.law.stretches:
+        size = float(stretching(model, deflections.largest))
     for name, part in sorted(parts.items(), key=lambda item: -item[1]):
-        either = " ".join(prefixed(thickness * part ** (-1.0 / THICKER), "m", 2))
-        if slower := _slower(part, model.m * model.gravity / result.max_force):
+        thicker = _thicker(part, size) if size else part ** (-1.0 / THICKER)
+        either = " ".join(prefixed(thickness * thicker, "m", 2))
+        if slower := _slower(part, weight, size):
             speed, slow = " ".join(prefixed(model.v0 * slower, "m/s", 2)), True
             either = f"{speed} or {either}"
         remedies.append(f"{name.replace('_', ' ')} {either}")
@@ -121,19 +134,45 @@ def _neglected(result: "Result") -> str:
     return " and stretches, which the model neglects without effects.stretching = true"
 
 
-def _slower(part: float, weight: float) -> float:
+def _slower(part: float, weight: float, size: float = 0.0) -> float:
     """Return the part of the speed at which a plate deflects by a part of its deflection [1].
 
-    It is 0 if the weight alone deflects it more. Under a sphere of weight mg a spring k deflects by
-    w with w^2 - 2 w mg/k = (v0^2 m)/k.
+    It is 0 if the weight alone deflects it more. Under a sphere of weight mg a spring of stiffness
+    k (1 + S) deflects by w with w^2 (1 + S/2) - 2 w mg/k = (v0^2 m)/k, S being proportional to w^2.
 
     Parameters
     ----------
     weight
         Weight of the sphere over the largest force [1].
+    size
+        The relative stiffening S by stretching, 0 if the plate does not stretch [1].
     """
-    square = part * (part - 2.0 * weight)
-    return math.sqrt(square / (1.0 - 2.0 * weight)) if square > 0.0 else 0.0
+
+    def square(part: float) -> float:
+        energy = part * part * (1.0 + 0.5 * part * part * size)
+        return energy - 2.0 * part * weight * (1.0 + size)
+
+    slow = square(part)
+    return math.sqrt(slow / square(1.0)) if slow > 0.0 else 0.0
+
+
+def _thicker(part: float, size: float) -> float:
+    """Return the factor of the thickness with which a stretching plate deflects by a part [1].
+
+    A heavy sphere has the energy k w^2 (1 + S/2)/2, with k ~ H^3 and S ~ (w/H)^2.
+
+    Parameters
+    ----------
+    size
+        The relative stiffening S by stretching [1].
+    """
+    square = part * part
+
+    def deflects_less(thinner: float) -> bool:
+        stiffer = thinner**-3 + 0.5 * size * square / thinner
+        return square * stiffer >= 1.0 + 0.5 * size
+
+    return 1.0 / _largest(deflects_less)
 
 
 def _by_sphere(result: "Result") -> str:
@@ -141,14 +180,22 @@ def _by_sphere(result: "Result") -> str:
     error = max(sphere_errors(result).values())
     if error < NO_DIGITS:
         return ""
-    part = _largest(lambda part: max(sphere_errors(result, part).values()) <= USABLE)
-    # In a Hertzian contact the radius is proportional to the power 2/5 of the speed.
-    speed = " ".join(prefixed(result.model.v0 * part**2.5, "m/s", 2))
+    speed = _speed_of_sphere(result, growth_of(result.dynamics))
+    if max(growth_of(result.dynamics)) > GROWN:
+        once = _speed_of_sphere(result, NO_GROWTH)
+        speed = f"{once} if the plate does not meet the sphere again, otherwise {speed}"
     return (
         f"The contact radius is {result.max_contact_radius / float(result.model.R):.2g} of the "
         "sphere's radius, and the model treats the sphere as a half-space "
         f"(error {up_to(error)}). Speed for an error of about {percent(USABLE)}: {speed}."
     )
+
+
+def _speed_of_sphere(result: "Result", growth: Results) -> str:
+    """Return the speed at which the finite size of the sphere is small enough."""
+    part = _largest(lambda part: max(sphere_errors(result, part, growth).values()) <= USABLE)
+    # In a Hertzian contact the radius is proportional to the power 2/5 of the speed.
+    return " ".join(prefixed(result.model.v0 * part**2.5, "m/s", 2))
 
 
 def _part(result: "Result", deflections: Deflections, name: str, most: float) -> float:

@@ -43,7 +43,8 @@ def figure(result: Result) -> "Figure":
     drawn = made.subplot_mosaic([["z", "z"], ["P", "v"], ["energy", "e"]])
     (sphere, face), w_label = scaled(rows[[Z, W]], "displacement $z$, $w$", "m")
     drawn["z"].plot(t, sphere, color=BLUE, linewidth=1.5, label="sphere, $z$")
-    drawn["z"].plot(t, face, color=BROWN, linewidth=1.2, label="plate at the axis, $w$")
+    plate = "plate at the axis (without local indentation), $w$"
+    drawn["z"].plot(t, face, color=BROWN, linewidth=1.2, label=plate)
     force, f_label = scaled(rows[P], "contact force $P$", "N")
     drawn["P"].plot(t, force, color=BLUE, linewidth=1.5)
     velocity, v_label = scaled(rows[V], "sphere velocity $v$", "m/s")

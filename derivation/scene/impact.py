@@ -294,7 +294,8 @@ def _needs_stretching(scene: Scene, rtol: float | None, selected: SelectedEffect
         return selected_effects(without_constant(scene), rtol)[1].law.stretches
     from derivation.scene.dynamic.stretching_needed import needs_stretching
 
-    return needs_stretching(selected.law, selected.outputs)
+    stress = scene.plate.tensile_strength is not None
+    return needs_stretching(selected.law, selected.outputs, stress)
 
 
 def selection_tolerance(rtol: float | None) -> float:

@@ -69,6 +69,23 @@ def test_only_requested_results_count() -> None:
     assert not explain(read(one)).effects.law.stretches
 
 
+def test_a_given_strength_makes_the_stress_count() -> None:
+    """A slow, heavy sphere: the tension changes the stress much more than the other results."""
+    weight = {
+        "sphere": {"radius": 0.01, "material": "steel", "mass": 5.0},
+        "plate": {"radius": 0.075, "thickness": 6e-3, "material": "PMMA", "edge": "clamped"},
+        "impact": {"speed": 1.4},
+        "accuracy": {"rtol": 0.1, "outputs": ["max_indentation"]},
+    }
+    strong = changed(weight, "plate", tensile_strength=70e6)
+    without = simulate(read(strong | {"effects": {"stretching": False}}))
+    assert without.model_errors["max_indentation"] < NEEDED < without.tensile_stress.error
+    assert not explain(read(weight)).effects.law.stretches
+    result = simulate(read(strong))
+    assert result.effects.law.stretches
+    assert result.tensile_stress.error < 0.5 * without.tensile_stress.error
+
+
 @pytest.fixture
 def undecided() -> Iterator[None]:
     """Forget former decisions before and after a test that changes how they are made."""

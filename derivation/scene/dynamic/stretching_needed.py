@@ -9,7 +9,12 @@ from derivation.scene.contact_law.corrections import stretching
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic.not_usable import EXPECTED, PART
 from derivation.scene.dynamic.runs import with_few_modes
-from derivation.scene.dynamic.stretching_error import FORCE, deflections_of, stretching_error
+from derivation.scene.dynamic.stretching_error import (
+    FORCE,
+    deflections_of,
+    stress_change,
+    stretching_error,
+)
 from derivation.scene.dynamic.time_in_contact import (
     deflects_too_far,
     largest_deflection,
@@ -32,7 +37,7 @@ stiffening was at most 20 times this estimate in 212 random impacts (47 with wei
 
 
 @lru_cache(maxsize=64)
-def needs_stretching(law: ContactLaw, outputs: Sequence[str]) -> bool:
+def needs_stretching(law: ContactLaw, outputs: Sequence[str], stress: bool = False) -> bool:
     """Return whether a result is much more accurate if the plate stretches.
 
     Parameters
@@ -41,6 +46,8 @@ def needs_stretching(law: ContactLaw, outputs: Sequence[str]) -> bool:
         The law of an impact on a plate that does not stretch.
     outputs
         The results that count.
+    stress
+        Whether the largest tensile stress on the back face counts, too.
     """
     if not law.dynamic or law.model.inertia.infinite_plate:
         return False
@@ -58,14 +65,18 @@ def needs_stretching(law: ContactLaw, outputs: Sequence[str]) -> bool:
     except SceneError:
         return rough >= EXPECTED
     deflections = deflections_of(law, motion)
-    without = stretching_error(law, motion, deflections)
+    without = [stretching_error(law, motion, deflections)[name] for name in outputs]
     size = float(stretching(law.model, deflections.largest))
     part = math.sqrt(2.0 / (1.0 + math.sqrt(1.0 + 2.0 * size)))  # of a stiffening spring
-    remaining = stretching_error(stretched(law), motion, deflections.times(part))
+    other = stretched(law)
+    errors = stretching_error(other, motion, deflections.times(part))
+    remaining = [errors[name] for name in outputs]
+    if stress:
+        without.append(stress_change(law, motion))
+        remaining.append(stress_change(other, motion))
     return any(
-        error >= NEEDED and remaining[name] <= BETTER * error
-        for name, error in without.items()
-        if name in outputs
+        error >= NEEDED and left <= BETTER * error
+        for error, left in zip(without, remaining, strict=True)
     )
 
 

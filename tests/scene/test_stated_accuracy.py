@@ -38,6 +38,14 @@ def test_tolerance_is_met(rtol: float) -> None:
         assert off <= result.accuracy.bound + fine.accuracy.bound
 
 
+def test_outputs_without_a_tolerance_have_the_error_of_these_alone() -> None:
+    every = simulate(scene(inertia={"modes": 40}))
+    for name in OUTPUTS:
+        one = simulate(scene(inertia={"modes": 40}, accuracy={"outputs": [name]}))
+        assert one.accuracy.bound == every.bound_of(name) <= every.accuracy.bound
+        assert getattr(one, name) == getattr(every, name)
+
+
 def test_unattainable_tolerance_is_rejected() -> None:
     few = {"modes": 8, "branches": "A0"}
     with pytest.raises(SceneError, match=r"^rtol: .*at least"):

@@ -23,10 +23,10 @@ class Accuracy(Table):
     Parameters
     ----------
     rtol
-        Relative tolerance of the results [1], from 1e-13 to 1.
+        Relative tolerance of the results [1], from 1e-13 to 1; by default there is none.
     outputs
-        Names of the results that the tolerance applies to; by default all five: contact_time,
-        max_indentation, max_force, max_contact_radius and restitution.
+        Names of the results that count: tolerance and error bound apply to them. By default all
+        five: contact_time, max_indentation, max_force, max_contact_radius and restitution.
 
     Examples
     --------
@@ -41,12 +41,12 @@ class Accuracy(Table):
     True
     """
 
-    rtol: Annotated[float, Field(ge=TIGHTEST, le=1)] = Field(
-        description="relative tolerance of the results [1]", examples=[0.01]
+    rtol: Annotated[float, Field(ge=TIGHTEST, le=1)] | None = Field(
+        default=None, description="relative tolerance of the results [1]", examples=[0.01]
     )
     outputs: tuple[Output, ...] = Field(
         default=OUTPUTS,
-        description="results that the tolerance applies to",
+        description="results that the tolerance and the error bound apply to",
         examples=[["max_force"]],
         min_length=1,
         strict=False,  # TOML has arrays, no tuples

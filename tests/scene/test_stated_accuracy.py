@@ -47,7 +47,7 @@ def test_outputs_without_a_tolerance_have_the_error_of_these_alone() -> None:
         assert getattr(fine, name) == pytest.approx(getattr(one, name), rel=one.accuracy.bound)
         bounds.append(one.accuracy.bound)
     assert min(bounds) < 0.5 * max(bounds)
-    assert max(bounds) == every.accuracy.bound
+    assert 0.9 * every.accuracy.bound < max(bounds) <= every.accuracy.bound
 
 
 def test_unattainable_tolerance_is_rejected() -> None:

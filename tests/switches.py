@@ -45,9 +45,19 @@ class Sides:
         The distance is zero between consecutive integers, from zero, and for operands that are not
         floats. A comparison with NaN is not recorded.
         """
+        if isinstance(left, float) and isinstance(right, float):  # the same, without arrays
+            relative = _relative_distance(left, right)
+            if outcome:
+                self.true = min(self.true, relative)
+            else:
+                self.false = min(self.false, relative)
+            return
+        left, right, outcome = np.asarray(left), np.asarray(right), np.asarray(outcome)
+        if left.dtype.kind != "f" and right.dtype.kind != "f":
+            self.true = 0.0 if outcome.any() else self.true
+            self.false = self.false if outcome.all() else 0.0
+            return
         left, right, outcome = np.broadcast_arrays(left, right, outcome)
-        if left.dtype.kind not in "f" and right.dtype.kind not in "f":
-            left = right = np.zeros(left.shape)
         with np.errstate(all="ignore"):
             distance = np.abs(np.subtract(left, right, dtype=float))
             whole = (left == np.rint(left)) & (right == np.rint(right)) & (distance <= 1)
@@ -57,6 +67,20 @@ class Sides:
         relative[np.isnan(relative)] = 1.0  # infinities
         self.true = min(self.true, relative[outcome].min(initial=np.inf))
         self.false = min(self.false, relative[~outcome].min(initial=np.inf))
+
+
+def _relative_distance(left: float, right: float) -> float:
+    """Return the relative distance of the operands of a comparison; see `Sides.count`."""
+    if math.isnan(left) or math.isnan(right):
+        return math.inf
+    distance = abs(left - right)
+    if left in (0.0, right) or right == 0.0:
+        return 0.0
+    if distance <= 1.0 and left.is_integer() and right.is_integer():
+        return 0.0
+    if math.isinf(distance):
+        return 1.0
+    return float(distance / max(abs(left), abs(right)))
 
 
 @dataclass

@@ -21,6 +21,8 @@ CONFIDENCE = 0.95
 """Fraction of bootstrap samples that an interval covers."""
 RESAMPLES = 999
 """Number of bootstrap samples."""
+BLOCK = 100_000
+"""Number of values in resampled studies that are evaluated at once."""
 ORDERS = ("first_order", "total_order")
 
 
@@ -160,10 +162,13 @@ def _with_intervals(values: Array) -> Array:
         Results of shape (result, base, d + 2), d being the number of keys.
     """
     base, rng = values.shape[1], np.random.default_rng(0)
-    again = [_indices(values[:, rng.integers(0, base, base)]) for _ in range(RESAMPLES)]
+    count, again = max(1, BLOCK // values.size), []
+    for begin in range(0, RESAMPLES, count):
+        chosen = rng.integers(0, base, (min(count, RESAMPLES - begin), base))
+        again.append(_indices(np.moveaxis(values[:, chosen], 1, 0)))
     outside = (1 - CONFIDENCE) / 2
     index, widening = _indices(values), _widening(base)
-    ends = np.quantile(again, [outside, 1 - outside], axis=0)
+    ends = np.quantile(np.concatenate(again, axis=1), [outside, 1 - outside], axis=1)
     # An interval of quantiles may lie on one side of the index.
     low, high = np.minimum(ends[0] - index, 0.0), np.maximum(ends[1] - index, 0.0)
     return np.stack([index, index + widening * low, index + widening * high])
@@ -182,12 +187,17 @@ def _widening(base: int) -> float:
 
 
 def _indices(values: Array) -> Array:
-    """Return first-order and total indices, of shape (order, result, key); 0 without variance.
+    """Return first-order and total indices, of shape (order, ..., result, key); 0 without variance.
 
     They are estimates (b) and (f) of table 2 of Saltelli et al. 2010.
+
+    Parameters
+    ----------
+    values
+        Results of shape (..., result, base, d + 2), d being the number of keys.
     """
-    values = values - values[:, :, :2].mean(axis=(1, 2), keepdims=True)
-    one, other, mixed = values[:, :, :1], values[:, :, 1:2], values[:, :, 2:]
-    variance = values[:, :, :2].var(axis=(1, 2))[:, None]
-    first, total = (other * (mixed - one)).mean(axis=1), 0.5 * ((one - mixed) ** 2).mean(axis=1)
+    values = values - values[..., :2].mean(axis=(-2, -1), keepdims=True)
+    one, other, mixed = values[..., :1], values[..., 1:2], values[..., 2:]
+    variance = values[..., :2].var(axis=(-2, -1))[..., None]
+    first, total = (other * (mixed - one)).mean(axis=-2), 0.5 * ((one - mixed) ** 2).mean(axis=-2)
     return np.stack([first, total]) / np.where(variance > 0.0, variance, np.inf)

@@ -38,10 +38,10 @@ def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
         shutil.copytree(ROOT / folder, root / folder, ignore=ignored)
     shutil.copy(ROOT / "pyproject.toml", root)
     assert apply_examples(root, paper=False) >= 30
-    # Cached formulas are valid for subjects whose sources no example changes.
+    # Cached results are valid for subjects whose sources no example changes.
     if (cached := cache_folder()) is not None:
         (root / "cache" / cached.name).mkdir(mode=0o700, parents=True)
-        for file in cached.glob("derivation.plate.*.theory.*"):
+        for file in cached.glob("derivation.plate.*"):
             shutil.copy(file, root / "cache" / cached.name)
     return root
 
@@ -101,6 +101,9 @@ def prove_new(name, arguments, statements, results, claims, *others):
     claims = tuple(None for _ in claims) if name in functions else claims
     return prove(name, arguments, statements, results, claims, *others)
 routines.routine = prove_new
+from derivation.plate.waves.theory import bending_branch
+named = {formula.name: formula for _, records in steps for formula in records}
+bending_branch.bending_fraction = lambda: named["bending_fraction"]  # it is derived in seconds
 from derivation.plate import blocks, derived, forms, render
 from derivation.plate.chain import MOTION_STEPS
 from derivation.plate.modules import printed_modules
@@ -152,9 +155,15 @@ print(json.dumps({
     "cases": [[row.case.kernel, row.passed, row.error, row.allowed] for row in judged],
 }))
 """
-REPORT = f"{WHOLE}from derivation.engine import report_files\n"
-REPORT += "report_files.figure_file = lambda *_: b'<svg ></svg>'  # the additions have no figures\n"
-REPORT += "sys.exit(main(['report', '--no-pdf', '--out', sys.argv[2]]))"
+REPORT = WHOLE
+REPORT += """
+from derivation.engine import report_files
+from derivation.plate.reporting import REPORT
+figures = dict.fromkeys(REPORT.figures(), lambda: None)  # the additions have none
+object.__setattr__(REPORT, "figures", lambda: figures)
+report_files.figure_file = lambda *_: b"<svg ></svg>"
+sys.exit(main(["report", "--no-pdf", "--out", sys.argv[2]]))
+"""
 TESTS = "import sys, pytest; sys.exit(pytest.main(['-q', '-o', 'addopts=', *sys.argv[1:]]))"
 
 

@@ -58,10 +58,13 @@ def test_restitution_alone_is_within_its_bound(thickness: float) -> None:
 def test_omitted_weight_is_within_its_bound(
     radius: float, plate: dict[str, Any], speed: float
 ) -> None:
-    """An earlier version stated bounds down to a ninth of the change."""
+    """An earlier version stated bounds down to a ninth of the change.
+
+    Stretching, which would multiply the run time, is disabled.
+    """
     sphere, impact = {"radius": radius, "material": "steel"}, {"speed": speed, "gravity": 9.81}
     data = {"sphere": sphere, "plate": plate | {"edge": "simply-supported"}, "impact": impact}
-    effects = {"inertia": True, "plasticity": False}
+    effects = {"inertia": True, "plasticity": False, "stretching": False}
     tables = {"accuracy": {"rtol": 0.03}, "inertia": {"branches": "A0"}}
     without, reference, bound = compared(data | tables, effects, "gravity")
     assert 3e-3 < max(change(without, reference, name) for name in OUTPUTS) < bound

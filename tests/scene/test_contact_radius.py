@@ -91,7 +91,8 @@ def test_contact_law_without_long_waves_does_not_depend_on_the_plate_radius(
         plate = pc.Plate(radius=2.0 * ratio * h, thickness=2.0 * h, material="glass")
         scene = pc.Scene(
             sphere=pc.Sphere(radius=0.03, material="steel"), plate=plate,
-            impact=pc.Impact(speed=0.5), effects=pc.Effects(non_hertzian_pressure=True),
+            impact=pc.Impact(speed=0.5),
+            effects=pc.Effects(non_hertzian_pressure=True, stretching=False),
         )  # fmt: skip
         law = branching(selected_effects(scene)[1].law, "A0")
         rest = law.only(lambda effect: effect.static and not effect.other_edge)
@@ -110,7 +111,7 @@ def test_contact_law_without_long_waves_does_not_depend_on_the_plate_radius(
 
 @pytest.mark.one_version
 def test_model_error_covers_the_change_by_the_plate_radius() -> None:
-    results = [impact(ratio, thickness=5e-4) for ratio in (480, 960)]
+    results = [impact(ratio, thickness=5e-4, modes=ratio // 4) for ratio in (480, 960)]
     one, other = (np.array([r.max_contact_radius, r.max_pressure]) for r in results)
     allowed = sum(r.model_errors["max_contact_radius"] for r in results)
     assert np.all(np.abs(one / other - 1.0) <= min(allowed, 2e-3))

@@ -23,6 +23,7 @@ LIGHT: dict[str, Any] = {
     "plate": {"radius": 0.123, "thickness": 0.002, "material": "steel"},
     "impact": {"speed": 3.7},
     "accuracy": {"rtol": 0.02},
+    "effects": {"stretching": False},  # the automatic decision would take seconds
 }
 CLAMPED: dict[str, Any] = {
     "sphere": {
@@ -34,6 +35,7 @@ CLAMPED: dict[str, Any] = {
     },
     "impact": {"speed": 1.32},
     "accuracy": {"rtol": 0.02},
+    "effects": {"stretching": False},
 }  # fmt: skip
 THICKER: dict[str, Any] = LIGHT | {"plate": LIGHT["plate"] | {"thickness": 0.004}}
 

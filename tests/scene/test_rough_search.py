@@ -20,6 +20,7 @@ THIN: dict[str, dict[str, Any]] = {
     "sphere": {"radius": 0.008, "material": "bearing steel"},
     "plate": {"radius": 0.123, "thickness": 0.002, "material": "steel"},
     "impact": {"speed": 3.7},
+    "effects": {"stretching": False},  # which multiplies the run time
 }
 
 

@@ -16,6 +16,7 @@ pytestmark = pytest.mark.one_version
 
 GLASS: dict[str, Any] = {"material": "cover glass", "edge": "clamped"}
 LINEAR: dict[str, dict[str, Any]] = {"effects": {"stretching": False}}
+"""Otherwise the automatic decision on stretching takes seconds in each scene."""
 
 
 def scene(R: float, plate: dict[str, Any], speed: float) -> dict[str, Any]:
@@ -39,7 +40,7 @@ def scene(R: float, plate: dict[str, Any], speed: float) -> dict[str, Any]:
     ],
 )
 def test_contacts_last_longer_than_the_least_time(tables: dict[str, Any]) -> None:
-    law = selected_effects(read(tables))[1].law
+    law = selected_effects(read(tables | LINEAR))[1].law
     least = time_in_contact.time_in_contact(law, plate_of(law, 32).modes)
     problem = problem_of(law, 16)
     history = contact_sequence.impact_history(problem, 24, 1e-6)
@@ -75,7 +76,8 @@ def test_heavy_sphere_deflects_the_plate_as_far_as_is_estimated(
 ) -> None:
     tables = scene(radius, plate, 0.02)
     del tables["accuracy"]
-    modal = {"effects": {"inertia": True}, "inertia": {"modes": 24, "branches": "A0"}}
+    effects = LINEAR["effects"] | {"inertia": True}
+    modal = {"effects": effects, "inertia": {"modes": 24, "branches": "A0"}}
     result = simulate(read(tables | modal))
     assert result.complete
     motion, law = result.dynamics, result.effects.law
@@ -161,8 +163,8 @@ def test_a_quasi_static_plate_is_not_recommended_if_the_plate_stretches() -> Non
 def test_impact_with_too_many_time_steps_is_rejected_and_runs_on_a_thicker_plate() -> None:
     plate = GLASS | {"radius": 0.4, "thickness": 0.6e-3}
     with pytest.raises(SceneError, match=r"effects\.inertia: .* time steps"):
-        simulate(read(scene(0.0158, plate, 1.0)))
-    result = simulate(read(scene(0.0158, plate | {"thickness": 6e-3}, 1.0)))
+        simulate(read(scene(0.0158, plate, 1.0) | LINEAR))
+    result = simulate(read(scene(0.0158, plate | {"thickness": 6e-3}, 1.0) | LINEAR))
     assert result.accuracy.bound <= 1e-2
 
 

@@ -102,6 +102,15 @@ def test_few_points_have_wide_intervals() -> None:
     assert np.mean(inside) > 0.9
 
 
+def test_intervals_do_not_depend_on_the_number_of_studies_evaluated_at_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    values = np.random.default_rng(1).normal(size=(3, 6, 5))
+    together = sensitivity._with_intervals(values)
+    monkeypatch.setattr(sensitivity, "BLOCK", 1)
+    assert sensitivity._with_intervals(values) == pytest.approx(together, rel=1e-12)
+
+
 def test_indices_of_one_result_and_key() -> None:
     """SciPy's function fails for them."""
     points = qmc.Sobol(2, rng=0).random(64)

@@ -85,7 +85,11 @@ class ContactTables:
     def at(self, a: Array) -> ContactSamples:
         """Return the contact at radii [m]; NaN below 0 and above `top`."""
         x = self._places(a)
-        powers = np.array([x**3, x**2, x * x / self.top, x / self.top])
+        powers = np.empty((4, *x.shape))
+        np.multiply(x, x, out=powers[1])
+        np.multiply(powers[1], x, out=powers[0])
+        np.divide(powers[1], self.top, out=powers[2])
+        np.divide(x, self.top, out=powers[3])
         # There are fewer polynomials to scale than values.
         scaled = powers[..., None] * chebyshev(2.0 * x - 1.0, self.degree)
         forces, squares, forces_a, squares_a = scaled @ self.table
@@ -114,14 +118,20 @@ class ContactTables:
         """
         if self.static_change is None:
             return np.ones_like(a)
-        at, x = self.at(a), a / self.top
-        static = x**3 * (chebyshev(2.0 * x - 1.0, self.static_change.size - 1) @ self.static_change)
-        change = force_of_waves(np.array(self.modulus), a, np.vecdot(at.less_a, q)) - static
-        return np.asarray(np.maximum(FLATTEST, 1.0 + change / at.force) ** (-1.0 / 3.0))
+        x = self._places(a)
+        polynomials = chebyshev(2.0 * x - 1.0, self.degree)
+        # Only the required part of `at`; the factor x^3 of both forces is omitted until the end.
+        less_a = (x / self.top)[:, None] * (polynomials @ self.table[3, :, 1:])
+        force, static = polynomials @ self.table[0, :, 0], polynomials @ self.static_change
+        waves = force_of_waves(np.array(self.modulus), a, np.vecdot(less_a, q))
+        change = (waves / x**3 - static) / force
+        return np.asarray(np.maximum(FLATTEST, 1.0 + change) ** (-1.0 / 3.0))
 
     def _places(self, a: Array) -> Array:
         """Return radii [m] over `top`; NaN below 0 and above it."""
-        return np.where((a >= 0.0) & (a <= self.top), a / self.top, np.nan)
+        x = a / self.top
+        x[~((a >= 0.0) & (a <= self.top))] = np.nan
+        return x
 
 
 def contact_of(

@@ -389,6 +389,8 @@ def _edge_compliance(law: ContactLaw) -> float:
 def sine_less_one(sine: Array, y: Array) -> Array:
     """Return sin(y)/y - 1 from sin(y)."""
     small = np.abs(y) < 0.1
+    if not small.any():
+        return np.asarray(sine / y - 1.0, dtype=np.float64)
     values = np.asarray(sine / np.where(small, 1.0, y) - 1.0, dtype=np.float64)
     z = y[small] ** 2
     values[small] = -z / 6.0 * (1.0 - z / 20.0 * (1.0 - z / 42.0 * (1.0 - z / 72.0)))

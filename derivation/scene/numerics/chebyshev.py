@@ -14,9 +14,19 @@ def chebyshev(s: Array, degree: int) -> Array:
 
     The cosines follow from the tangent of half the angle, which NumPy may compute faster.
     """
-    t = np.tan(np.arccos(s)[..., None] * (0.5 * np.arange(degree + 1)))
-    square = t * t
-    return np.asarray((1.0 - square) / (1.0 + square), dtype=np.float64)
+    t = np.arccos(s)[..., None] * _halves(degree)
+    np.tan(t, out=t)
+    t *= t
+    values = 1.0 - t
+    t += 1.0
+    values /= t
+    return np.asarray(values, dtype=np.float64)
+
+
+@lru_cache(maxsize=64)
+def _halves(degree: int) -> Array:
+    """Return half of each number up to a degree."""
+    return np.asarray(0.5 * np.arange(degree + 1), dtype=np.float64)
 
 
 def by_growth(table: Array) -> Array:

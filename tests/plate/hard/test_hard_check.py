@@ -158,9 +158,12 @@ def test_command_lists_every_case(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_status_is_1_when_a_case_fails(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    suite: Suite,
+    references: dict[str, Known],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
-    rows = build.check_hard(PAPER)
+    rows = checked(suite, suite.cases[:2], references)
     broken = dataclasses.replace(rows[0], error=99.0, problem="error of 99 ULP")
     sound = dataclasses.replace(rows[1], problem="")
     for actual, status in (((sound,), 0), ((sound, broken), 1)):

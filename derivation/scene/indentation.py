@@ -81,10 +81,10 @@ class StaticContact:
     model_error
         Largest relative error of any of these by the model [1]; infinite if that by the edge of the
         plate is unknown.
-    force_error
-        The same of force, indentation and stiffness alone, without radius and pressure.
     warnings
         Warnings about validity.
+    force_error
+        The model error of force, indentation and stiffness alone, without radius and pressure [1].
     stretched
         Whether stretching of the plate's middle plane is included; it is negligible otherwise,
         unless the scene disables it.
@@ -96,8 +96,8 @@ class StaticContact:
     stiffness: float
     max_pressure: float
     model_error: float = 0.0
-    force_error: float = 0.0
     warnings: tuple[str, ...] = ()
+    force_error: float = 0.0
     stretched: bool = False
 
     def to_json(self) -> dict[str, Any]:

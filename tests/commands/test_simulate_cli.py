@@ -132,7 +132,7 @@ def test_indent_accepts_several_values(values: list[str], scene: Path, capsys: C
     assert [row["force"] for row in rows] == [10, 100, 1000]
     assert list(rows[0]) == [
         "contact_radius", "indentation", "force", "stiffness", "max_pressure", "model_error",
-        "warnings",
+        "warnings", "force_error", "stretched",
     ]  # fmt: skip
 
 

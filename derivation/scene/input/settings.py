@@ -1,6 +1,7 @@
 """Tables of a scene for accuracy, plate inertia and a measured restitution."""
 
-from typing import Annotated, Literal, get_args
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal, get_args
 
 from pydantic import Field
 
@@ -51,6 +52,17 @@ class Accuracy(Table):
         min_length=1,
         strict=False,  # TOML has arrays, no tuples
     )
+
+    @classmethod
+    def conflicts(cls, given: Mapping[str, Any]) -> list[str]:
+        """Return the problems of the keys, among them a table that changes nothing."""
+        problems = super().conflicts(given)
+        if given.get("rtol") is None and tuple(given.get("outputs", OUTPUTS)) == OUTPUTS:
+            problems.append(
+                f"accuracy.rtol: expected a number from {TIGHTEST:g} to 1, or some of the results "
+                "as accuracy.outputs, got neither; add `rtol = 0.01` to [accuracy]"
+            )
+        return problems
 
 
 class Inertia(Table):

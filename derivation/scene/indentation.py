@@ -182,7 +182,8 @@ def indent(
     Parameters
     ----------
     scene
-        The scene, as `load` returns it. Speed, mass, gravity and tolerance have no effect.
+        The scene, as `load` returns it. Speed, mass, gravity and tolerance have no effect. A thin
+        plate stretches, unless `effects.stretching` is False.
     contact_radius, force, indentation
         Contact radii [m], forces [N] or indentations [m], exactly one of the three: a positive
         number or an iterable of positive numbers. The indentation includes plate deflection.
@@ -282,11 +283,15 @@ def _contact(law: ContactLaw, name: str, value: float) -> StaticContact:
     if at is None or counts(law, _deflection(linear, at)):
         at = _at(law, name, value, key, remedy)
         while more := more_shapes(law, at.change, at.depth):
-            near = radius_from(more, name, value, at.elastic_radius, last_radius(more))
+            try:
+                near = radius_from(more, name, value, at.elastic_radius, last_radius(more))
+            except SceneError:  # the range ends a little earlier; the error covers the shapes
+                break
             law, at = more, loaded(more, near)
     else:
         law = linear
     check_radius(law, at.radius, key, remedy)
+    # At equal force the curvature of the plate changes the radius, and P grows with its cube.
     pressure = law.max_pressure(at.elastic_radius * at.wider) / at.wider**3
     pressure = min(pressure, law.pressure_limit)
     check_numbers(model, at.radius, at.force, at.depth, at.stiffness, pressure)

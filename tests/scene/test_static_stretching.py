@@ -171,8 +171,15 @@ def test_infinite_and_thick_plates_and_scenes_without_it_do_not_stretch() -> Non
     for one in (linear(scene), infinite):
         (contact,) = indent(read(one), force=0.1)
         assert not contact.stretched
-    (thick,) = indent(read(tables("clamped", 0.03)), force=100.0)
-    assert not thick.stretched
+    thick = tables("clamped", 0.03)
+    (contact,) = indent(read(thick), force=100.0)
+    assert not contact.stretched
+    errors = []
+    for one in (thick, linear(thick)):
+        with pytest.raises(SceneError) as error:
+            indent(read(one), force=1e12)
+        errors.append(str(error.value))
+    assert errors[0] == errors[1]
 
 
 def test_a_contact_that_stretching_changes_too_far_is_rejected_with_the_range() -> None:

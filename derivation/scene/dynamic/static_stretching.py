@@ -167,10 +167,12 @@ class StretchedPlate:
 
 @lru_cache(maxsize=8)
 def _plate_of(law: ContactLaw, shapes: int) -> StretchedPlate | None:
-    """Return the plate of a law; None if it is too thick to have modes."""
+    """Return the plate of a law; None if it is too thick."""
+    if law.model.eta > THIN:
+        return None
     try:
         return StretchedPlate.of(law, shapes)
-    except SceneError:
+    except SceneError:  # its edge has no modes, or too many
         return None
 
 
@@ -182,8 +184,7 @@ def counts(law: ContactLaw, deflection: float) -> bool:
     deflection
         Deflection of the plate on the axis without stretching [m].
     """
-    thin = law.stretches and law.model.eta <= THIN
-    if not thin or not stretching(law.model, deflection) > NEGLIGIBLE:
+    if not law.stretches or not stretching(law.model, deflection) > NEGLIGIBLE:
         return False
     return _plate_of(law, law.model.inertia.shapes) is not None
 

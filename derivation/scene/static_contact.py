@@ -17,11 +17,11 @@ from derivation.scene.errors import SceneError
 from derivation.scene.numerics.crossing import last_true
 
 UNITS = {"contact_radius": "m", "force": "N", "indentation": "m"}
-STEPS, CLOSE, FOUND, HALVINGS, NEAR = 60, 4e-16, 1e-12, 60, 1e-4
+_STEPS, _CLOSE, _FOUND, _HALVINGS, _NEAR = 60, 4e-16, 1e-12, 60, 1e-4
 """Largest number of Newton's steps; relative step that ends the iteration; largest relative step of
 an accepted result; number of halvings of an interval; relative step of a numerical derivative."""
-FOUND_STRETCHED = 1e-9
-"""The same as `FOUND` if the plate stretches: a deep indentation is a small difference between that
+_FOUND_STRETCHED = 1e-9
+"""The same as `_FOUND` if the plate stretches: a deep indentation is a small difference between that
 without stretching and its change."""
 
 
@@ -104,12 +104,12 @@ def radius_from(law: ContactLaw, name: str, value: float, a: float, last: float)
     SceneError
         If it is not found.
     """
-    step, found = math.inf, FOUND_STRETCHED if law.stretches else FOUND
-    for _ in range(STEPS):
+    step, found = math.inf, _FOUND_STRETCHED if law.stretches else _FOUND
+    for _ in range(_STEPS):
         reached, slope = _with_slope(law, name, a)
         check_numbers(law.model, reached, slope)
         before, step = step, math.log(value / reached) / slope
-        if not abs(step) > CLOSE or (law.stretches and 0.5 * abs(before) < abs(step) < found):
+        if not abs(step) > _CLOSE or (law.stretches and 0.5 * abs(before) < abs(step) < found):
             break
         a = min(a * math.exp(max(-1.0, min(1.0, step))), last)
     if not abs(step) < found:
@@ -129,7 +129,7 @@ def _range_end(law: ContactLaw, name: str) -> tuple[float, str]:
     last = last_radius(law)
     if _grows(law, name, last):
         return last, law.limit_in_words
-    low = last_true(lambda a: _grows(law, name, a), 0.0, last, HALVINGS)
+    low = last_true(lambda a: _grows(law, name, a), 0.0, last, _HALVINGS)
     radius = loaded(law, low).radius
     return low, f"{radius:.6g} m, beyond which the law of this plate is not valid"
 
@@ -144,7 +144,7 @@ def _with_slope(law: ContactLaw, name: str, a: float) -> tuple[float, float]:
     """Return a quantity at a radius [m] of the elastic law, and d log(quantity)/d log(a) [1]."""
     at = loaded(law, a)
     if name == "contact_radius" and at.change is not None:
-        narrower = (1.0 - NEAR) * a
+        narrower = (1.0 - _NEAR) * a
         at = at._replace(radius_a=(at.radius - loaded(law, narrower).radius) / (a - narrower))
     if math.isnan(at.radius):
         return math.nan, math.nan

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from shared_scenes import scene
 
-from derivation.scene import indent, indentation
+from derivation.scene import indent, static_contact
 from generated import contact_law, impact, perturbation, plate_arrays, plate_points
 from generated.prepared_plate import prepare
 
@@ -67,7 +67,7 @@ def indented() -> Any:
         (impact, wide, 6),
         (impact, history_of_impact, 6),
         (perturbation, breaks, 10),
-        (indentation, indented, 10),
+        (static_contact, indented, 10),
     ],
 )
 def test_stated_number_of_steps_is_sufficient(
@@ -77,7 +77,7 @@ def test_stated_number_of_steps_is_sufficient(
     exact = results()
     assert np.all(np.isfinite(exact))
     errors = []
-    monkeypatch.setattr(indentation, "_FOUND", math.inf)  # accepts the result of too few steps
+    monkeypatch.setattr(static_contact, "_FOUND", math.inf)  # accepts the result of too few steps
     for steps in (1, 2, 3, needed):
         monkeypatch.setattr(module, "_STEPS", steps)
         actual = results()

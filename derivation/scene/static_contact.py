@@ -21,8 +21,8 @@ _STEPS, _CLOSE, _FOUND, _HALVINGS, _NEAR = 60, 4e-16, 1e-12, 60, 1e-4
 """Largest number of Newton's steps; relative step that ends the iteration; largest relative step of
 an accepted result; number of halvings of an interval; relative step of a numerical derivative."""
 _FOUND_STRETCHED = 1e-9
-"""The same as `_FOUND` if the plate stretches: a deep indentation is a small difference between that
-without stretching and its change."""
+"""The same as `_FOUND` if the plate stretches: a deep indentation is a small difference between the
+one without stretching and its change."""
 
 
 class Loaded(NamedTuple):

@@ -31,7 +31,7 @@ BETTER = 0.5
 remaining error is estimated without a plate that stretches: in 325 random scenes with an error of
 at least `NEEDED`, the decision was that of a simulation with stretching in all but four."""
 MOST = 1.5e6
-"""Largest work of the simulation with few modes, about half a second. In 240 random impacts on thin
+"""Largest work of the simulation with few modes, about one second. In 240 random impacts on thin
 plates the decision was that without this limit."""
 SMALL = NEEDED / FORCE / 20.0
 """Rough estimate of the stiffening below which no impact is simulated for this decision [1]. The

@@ -334,9 +334,9 @@ def _model_errors(law: ContactLaw, at: Loaded) -> dict[str, float]:
     Edge, neglected stretching, curvature, the finite size of the sphere and motion of the faces
     change the indentation at a given force; the force at a given indentation changes by a power of
     that. On a plate that stretches, large rotations change the force at a given deflection, and the
-    omitted shapes the force of stretching. Like the stiffening S, these changes grow with the
-    square of the deflection, so that the derivative of the force with respect to it changes by
-    three times as much.
+    omitted shapes the force of stretching; the error of the contact radius changes the local
+    indentation. Like the stiffening S, these changes grow with the square of the deflection, so
+    that the derivative of the force with respect to it changes by three times as much.
     """
     model, curvature, change = law.model, edge_curvature_errors(law, at.radius), at.change
     changes, rotation, pressure = curvature.results, 0.0, curvature.pressure
@@ -345,7 +345,11 @@ def _model_errors(law: ContactLaw, at: Loaded) -> dict[str, float]:
     else:
         changes += 3.0 * change.error / at.depth
         rotation = 3.0 * ROTATION * change.steepness
-        pressure += curvature_error(change.radius - 1.0)
+        narrower = curvature_error(change.radius - 1.0)
+        pressure += narrower
+        # The local indentation grows with the square of the radius.
+        local = float(local_indentation(law, at.elastic_radius))
+        changes += 3.0 * 2.0 * narrower * local / at.depth
     changes += STIFFNESS * float(finite_sphere_error(law, at.radius, at.depth))
     if law.other_edge:
         [edge] = largest_neighbours(model, np.array([at.radius]), model.eta)

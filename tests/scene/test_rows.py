@@ -83,6 +83,20 @@ def in_arrays(monkeypatch: pytest.MonkeyPatch, *given: Any) -> None:
     assert set(solve(*given).status) == {"finished"}
 
 
+def test_rows_of_supported_plates_do_not_depend_on_rounding_errors_of_their_radius() -> None:
+    """NumPy computes powers of arrays and of numbers with other rounding errors."""
+    softest, stiffest = 2955104292.8682976, 6420821915.79457
+    tables = scene_with(
+        sphere={"radius": 1e-3, "mass": 3e-5, "material": None},
+        plate={"radius": 0.01, "half_thickness": 0.00031622776601683794, "thickness": None,
+               "material": None, "youngs_modulus": stiffest, "poissons_ratio": 0.0,
+               "edge": "simply-supported"},
+        impact={"speed": 0.1, "gravity": 0.0},
+        effects={"inertia": False, "non_hertzian_pressure": False},
+    )  # fmt: skip
+    check(tables, {"plate.youngs_modulus": np.array([stiffest, stiffest, softest])})
+
+
 @pytest.mark.parametrize(
     ("key", "values"),
     [

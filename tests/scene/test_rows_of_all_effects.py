@@ -57,7 +57,7 @@ def tables(draw: st.DrawFn) -> dict[str, dict[str, Any]]:
     sometimes(draw, impact, "gravity", 1.0, 1e3)
     choice = st.sampled_from(["auto", "auto", "auto", True, False])
     effects = {name: draw(choice) for name in FORCED} | {"inertia": False}
-    effects["non_hertzian_pressure"] = draw(st.sampled_from([False] * 7 + ["auto"]))
+    effects["non_hertzian_pressure"] = draw(st.sampled_from(["auto", "auto", True, False, False]))
     return {
         "sphere": sphere, "plate": plate, "impact": impact, "effects": effects,
         "materials": {"pane": pane},

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from derivation.scene.contact_law.closed_contact import closed_up_to
-from derivation.scene.contact_law.solved_contact import solved
+from derivation.scene.contact_law.solved_contact import force_at
 
 if TYPE_CHECKING:
     from derivation.scene.contact_law.law import ContactLaw
@@ -41,11 +41,14 @@ def edge_curvature_errors(law: "ContactLaw", a: float) -> CurvatureErrors:
     eta, case = law.model.eta, law.case
     part = max(LINEAR * eta, SQUARE * eta * eta)
     other = case._replace(edge=0.0)
-    # A plastic contact is wider, and with the paper's edge contact may be lost at the centre
-    # before.
-    radii = np.array([min(a, closed_up_to(other, float(law.limit)))])
-    plain, held = solved(radii, other), solved(radii, case)
-    change = part / 3.0 * abs(float(held.force[0] / plain.force[0]) - 1.0)
-    peak = float(held.centre_pressure[0] / held.mean_pressure[0])
+    plain = force_at(a, other)
+    if math.isnan(plain):  # with the paper's edge contact may be lost at the centre before
+        a = closed_up_to(other, law.limit)
+        plain = force_at(a, other)
+    radius = np.array([a])
+    [force] = law.force(radius, law.at(radius))
+    mean = force / (math.pi * a * a)
+    change = part / 3.0 * abs(force / plain - 1.0)
+    peak = law.max_pressure(a) / mean
     errors = change, SHAPE * change * max(1.0, 1.0 / peak)
     return CurvatureErrors(*(x if math.isfinite(x) else math.inf for x in errors))

@@ -19,8 +19,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.contact_law.closed_contact import closed_up_to
-from derivation.scene.contact_law.solved_contact import SolvedCase, contact_at, pressure_at
+from derivation.scene.contact_law import solved_law
+from derivation.scene.contact_law.solved_contact import (
+    SolvedCase,
+    pressure_at,
+)
 from derivation.scene.effects import BY_NAME, PAPER, WHOLE_PLATE, edge
 from derivation.scene.effects.effect import Contribution, Effect, PlateEffect, Reach
 from derivation.scene.effects.finite_thickness import plate_contribution
@@ -150,12 +153,12 @@ class ContactLaw:
         return sum((effect.softness(self.model) for effect in self.chosen), 0.0)
 
     @cached_property
-    def edge_curvature(self) -> float:
+    def edge_curvature(self) -> kernels.Numbers:
         """Coefficient of (t^2 + s^2)/h^3 in the contact kernel by another edge [1].
 
         It is 0 with plate inertia: the modes of the plate contain the curvature by its edge.
         """
-        return float(self.model.edge_curvature) if self.other_edge and not self.dynamic else 0.0
+        return self.model.edge_curvature if self.other_edge and not self.dynamic else 0.0
 
     @property
     def modulus(self) -> float:
@@ -170,8 +173,7 @@ class ContactLaw:
     @cached_property
     def limit(self) -> float:
         """Largest contact radius [m] of the law, at most where contact is lost at the centre."""
-        high = self._widest
-        return closed_up_to(self.case, float(high)) if self.solved else high
+        return solved_law.limit(self, self._widest) if self.solved else self._widest
 
     @cached_property
     def _widest(self) -> float:
@@ -228,19 +230,19 @@ class ContactLaw:
         return kernels.hertz_stiffness(a * np.cbrt(shape.force), self._bodies[1]) / shape.additive
 
     def max_pressure(self, a: float) -> float:
-        """Return the pressure at the centre [Pa]: (E*/pi) int_0^a delta'(c)/c dc on a half-space.
-
-        Each increment of the contact adds the pressure of a flat punch of radius c. For a
-        paraboloid the result is Hertz's (2/pi) E* a/R. Non-Hertzian pressure is part of the
-        solution of the integral equation.
-        """
-        if self.solved:
-            return float(contact_at(np.array([a]), self.case).centre_pressure[0])
+        """Return the pressure at the centre [Pa], see `centre_pressure`."""
         return float(self.centre_pressure(np.array([a]))[0])
 
     def centre_pressure(self, a: Array) -> Array:
-        """Return the pressure at the centre [Pa] on a half-space, at one or many radii [m]."""
+        """Return the pressure at the centre [Pa], at one or many radii [m].
+
+        It is (E*/pi) int_0^a delta'(c)/c dc on a half-space: each increment of the contact adds the
+        pressure of a flat punch of radius c. For a paraboloid the result is Hertz's (2/pi) E* a/R.
+        Non-Hertzian pressure is part of the solution of the integral equation.
+        """
         pressure = kernels.hertz_pressure(a, *self._bodies)
+        if self.solved:
+            return pressure * solved_law.solution(self, a).centre
         if not self.spherical:
             return pressure
         x, weights = gauss(NODES[2])
@@ -304,7 +306,7 @@ class ContactLaw:
     def at(self, a: Array) -> Shape:
         """Return force, indentation and slope at increasing contact radii [m]."""
         if self.solved:
-            return self._solved(a)
+            return Shape(*solved_law.shape(self, a))
         if not self.spherical:
             return self._paraboloid(a)
         sphere = self._sphere(a)
@@ -326,34 +328,11 @@ class ContactLaw:
         slope = 1.0 + part * deflection.slope
         return Shape(one, 1.0 + part * deflection.depth, slope, slope)
 
-    def _solved(self, a: Array) -> Shape:
-        """Return the shape with non-Hertzian pressure; an edge's curvature is in its kernel."""
-        # Near a = 0 the pressure is Hertzian.
-        a = np.maximum(a, 1e-12 * min(self.model.h, self.model.b, self.model.R))
-        shape = contact_at(a, self.case)
-        R = self.model.R
-        force = shape.force / kernels.hertz_force(a, *self._bodies)
-        equal = a * np.cbrt(force)
-        depth = shape.indentation / a * (R / a)
-        hertz = kernels.hertz_stiffness(equal, self._bodies[1])
-        additive = hertz / shape.stiffness
-        # Derivative of Hertz's radius of the force with respect to the contact radius.
-        growth = shape.stiffness * shape.slope / (2.0 * hertz) * (R / equal)
-        part = 1.0 / (1.0 + self.softness)
-        others = [effect.contribution(self.model, equal) for effect in self._beyond_whole_plate]
-        if self.edge_curvature:
-            curved = kernels.law_of_square(np.array(self.edge_curvature), equal / self.model.h)
-            others.append(Contribution(-curved[0], -curved[1]))
-        for plate in others:
-            depth = depth + part * (equal / a) ** 2 * plate.depth
-            additive = additive + part * plate.slope
-        return Shape(force, depth, additive * growth * (equal / a), additive)
-
     @property
     def case(self) -> SolvedCase:
         """The quantities that determine a contact with non-Hertzian pressure."""
-        m, edge = self.model, self.edge_curvature
-        return SolvedCase(m.h, m.b, m.R, self.modulus, m.modulus, self.spherical, edge)
+        [case] = solved_law.cases(self)
+        return case
 
     def _sphere(self, a: Array) -> kernels.Sphere:
         """Return force, indentation and slope on a half-space."""
@@ -378,7 +357,7 @@ class ContactLaw:
         others = self.plate_effects
         parts = []
         if any(effect.difference for effect in others):
-            parts, others = [self._plate(a)], self._beyond_whole_plate
+            parts, others = [self._plate(a)], self.beyond_whole_plate
         parts += [effect.contribution(self.model, a) for effect in others]
         depth, slope = parts[0]
         for other in parts[1:]:
@@ -395,6 +374,6 @@ class ContactLaw:
         return Contribution(depth, slope)
 
     @property
-    def _beyond_whole_plate(self) -> tuple[PlateEffect, ...]:
+    def beyond_whole_plate(self) -> tuple[PlateEffect, ...]:
         """Effects that add to the deflection of the whole plate with the paper's edge."""
         return tuple(e for e in self.plate_effects if e.name not in WHOLE_PLATE)

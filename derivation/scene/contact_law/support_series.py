@@ -19,6 +19,9 @@ WIDEST, TERMS = 0.15, 9
 """Largest alpha of a series, and its number of terms; the last one is below 1e-17 of the first."""
 WIDER = 1.3
 """Largest contact radius of a series over Hertz's largest one."""
+STEPS = 256.0
+"""It is rounded up to a multiple of the next power of two divided by this number. Rounding errors
+of Hertz's radius then do not change the series."""
 
 
 class Supports(NamedTuple):
@@ -35,7 +38,8 @@ class Supports(NamedTuple):
 
 def supports_of(hertz: Array, h: Array, b: Array, lam: Array, mu: Array) -> Supports:
     """Compute the series of plates from columns; `hertz` is Hertz's largest radius of each [m]."""
-    reach = np.minimum(WIDER * hertz / b, WIDEST)
+    fraction, exponent = np.frexp(WIDER * hertz / b)
+    reach = np.minimum(np.ldexp(np.ceil(fraction * STEPS) / STEPS, exponent), WIDEST)
     nodes, values, slopes = _rules()
     alpha = reach * np.sqrt(0.5 * (1.0 + nodes))
     sampled = kernels.supported_edge(alpha * b, h, b, lam, mu) / alpha

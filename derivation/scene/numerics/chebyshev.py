@@ -43,13 +43,19 @@ def by_growth(table: Array) -> Array:
 @lru_cache(maxsize=8)
 def knots(degree: int) -> tuple[Array, Array, Array]:
     """Return Chebyshev points on [0, 1], the matrix of coefficients, and int_0^1 t^2 f(x t) dt."""
-    n = 2 * degree
-    odd = np.arange(2 * n - 1, 0, -2)
-    x = (1.0 + np.cos(np.pi / (2 * n) * odd)) / 2.0
-    # The polynomials, cos(k angle), are orthogonal over the points; whole turns are removed.
-    turned = np.outer(np.arange(degree + 1), odd) % (4 * n)
-    analysis = (2.0 / n) * np.cos(np.pi / (2 * n) * turned)
-    analysis[0] *= 0.5
+    x, analysis = points(2 * degree, degree)
     t, weights = gauss(degree + 8)
     mean = [(weights * t * t) @ chebyshev(2.0 * point * t - 1.0, degree) for point in x]
     return x, analysis, np.array(mean)
+
+
+@lru_cache(maxsize=16)
+def points(count: int, degree: int) -> tuple[Array, Array]:
+    """Return Chebyshev points on [0, 1], and the matrix of the coefficients up to a degree."""
+    odd = np.arange(2 * count - 1, 0, -2)
+    x = (1.0 + np.cos(np.pi / (2 * count) * odd)) / 2.0
+    # The polynomials, cos(k angle), are orthogonal over the points; whole turns are removed.
+    turned = np.outer(np.arange(degree + 1), odd) % (4 * count)
+    analysis = (2.0 / count) * np.cos(np.pi / (2 * count) * turned)
+    analysis[0] *= 0.5
+    return x, analysis

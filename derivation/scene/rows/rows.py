@@ -1,10 +1,10 @@
 """Simulation of many scenes: columns of numbers and names in, columns of results out.
 
-Rows with the same names, such as those of materials, are computed together: impacts on quasi-static
-plates with Hertzian pressure in arrays. All other rows
-(non-Hertzian pressure, a viscoelastic or plastic contact, plate inertia), invalid rows, and rows
-for which rounding could change a decision are simulated one by one. Each row is equal to the result
-of `simulate` for its scene: effects, status and reason are the same, and numbers to the last bit.
+Rows with the same names, such as those of materials, are computed together: elastic impacts on
+quasi-static plates in arrays. All other rows (a viscoelastic or plastic contact, plate inertia),
+invalid rows, and rows for which rounding could change a decision are simulated one by one. Each row
+is equal to the result of `simulate` for its scene: effects, status and reason are the same, and
+numbers to the last bit.
 """
 
 import math
@@ -17,9 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from derivation.scene.contact_law.corrections import stretching
+from derivation.scene.contact_law.edge_curvature import edge_curvature_errors
 from derivation.scene.contact_law.edge_remainder import edge_remainders
 from derivation.scene.contact_law.finite_sphere import finite_sphere_error, vibration_error
 from derivation.scene.contact_law.impact_errors import ImpactErrors
+from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import local_indentation, plate_times
 from derivation.scene.effects import EFFECTS
 from derivation.scene.errors import SceneError
@@ -305,17 +307,9 @@ class _Block:
             known &= np.broadcast_to(a < law.limit, a.shape)[:, 0]
         if rtol is not None:  # other rows do not meet the tolerance, or too narrowly
             known &= bound <= rtol - ROUNDING
-        deflection = impacts.max_indentation[:, None] - local_indentation(law, a)
-        model_error = np.broadcast_to(stretching(law.model, deflection), a.shape)[:, 0]
-        if law.other_edge:
-            model_error = edge_remainders(law.model, a)[:, 0] + model_error
-        with np.errstate(all="ignore"):
-            by_sphere = finite_sphere_error(law, a, impacts.max_indentation[:, None])
-            on_restitution = model_error + vibration_error(law, a)[:, 0]
-        model_error = model_error + by_sphere[:, 0]
-        pressure_error = model_error
-        if outputs == ("restitution",):
-            model_error = on_restitution
+        depth = impacts.max_indentation[:, None]
+        deflection = depth - local_indentation(law, a)
+        model_error, pressure_error = _model_errors(law, a, depth, deflection, outputs)
         known &= np.isfinite(model_error)
         which = np.flatnonzero(known)
         strength: Array | float | None = scene.plate.tensile_strength
@@ -347,3 +341,25 @@ class _Block:
         included = " ".join(effect.name for effect in EFFECTS if effect.name in law.effects)
         self.table.effects[indices] = included
         return group.rows[which]
+
+
+def _model_errors(
+    law: ContactLaw, a: Array, depth: Array, deflection: Array, outputs: tuple[str, ...]
+) -> tuple[Array, Array]:
+    """Return the model errors of some results, and of the contact radius, see `model_errors`."""
+    error = np.broadcast_to(stretching(law.model, deflection), a.shape)[:, 0]
+    pressed = np.zeros_like(error)
+    if law.other_edge:
+        edge = edge_remainders(law.model, a)[:, 0]
+        if law.solved:
+            radii = enumerate(a[:, 0].tolist())
+            each = [edge_curvature_errors(law.take(row), radius) for row, radius in radii]
+            curvature, pressure = np.array(each).T
+            edge, pressed = edge + curvature, pressure - curvature
+        error = edge + error
+    with np.errstate(all="ignore"):
+        restitution = error + vibration_error(law, a)[:, 0]
+        error = error + finite_sphere_error(law, a, depth)[:, 0]
+    if outputs == ("restitution",):
+        return restitution, error + pressed
+    return (error + pressed if "max_contact_radius" in outputs else error), error + pressed

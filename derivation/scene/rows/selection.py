@@ -215,7 +215,7 @@ def _with_equal_effects(model: Model, count: int) -> list[Rows]:
 
 def _own_solution(law: ContactLaw) -> bool:
     """Return whether impacts by a law are computed one by one."""
-    return law.solved or law.viscous or law.plastic or law.dynamic
+    return law.viscous or law.plastic or law.dynamic
 
 
 def _step(

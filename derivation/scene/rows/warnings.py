@@ -153,7 +153,7 @@ def _texts(law: ContactLaw) -> tuple[Texts, ...]:
 
     def wide(one: Any) -> tuple[str, ...]:
         one.edge = law.model.edge
-        kind = {"solved": False, "spherical": law.spherical, "stretches": False}
+        kind = {"solved": law.solved, "spherical": law.spherical, "stretches": False}
         of_row: Any = SimpleNamespace(model=one, **kind)
         sizes = one.max_contact_radius, one.max_indentation, one.deflection
         return warnings_at(of_row, *sizes, one.correction, _errors(one))

@@ -1,0 +1,83 @@
+"""The contact law with non-Hertzian pressure, of one scene or of many as columns."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from derivation.scene import kernels
+from derivation.scene.contact_law.closed_contact import closed_up_to
+from derivation.scene.contact_law.solved_contact import (
+    SolvedCase,
+    SolvedShape,
+    linear_deflection,
+    shape_at,
+)
+from derivation.scene.effects.effect import Contribution
+from generated.arrays import Double as Array
+
+if TYPE_CHECKING:
+    from derivation.scene.contact_law.law import ContactLaw
+
+LEAST = 1e-12
+"""Smallest contact radius, over h, b and R, at which the pressure is not Hertz's [1]."""
+
+
+def shape(law: "ContactLaw", a: Array) -> tuple[Array, Array, Array, Array]:
+    """Return the numbers of `law.Shape` at contact radii [m].
+
+    The curvature of the plate by its edge is a part of the solution.
+    """
+    model, at = law.model, solution(law, a)
+    root = np.cbrt(at.force)
+    equal = a * root  # Hertz's radius of the force
+    linear = _column(law, [*map(linear_deflection, cases(law))]) * equal
+    depth = at.depth + root * root * (2.0 / 3.0 * linear)
+    additive = root * at.compliance + linear
+    growth = at.growth / (root * root)  # d equal/da
+    part = 1.0 / (1.0 + law.softness)
+    others = [effect.contribution(model, equal) for effect in law.beyond_whole_plate]
+    if np.any(law.edge_curvature):
+        curved = kernels.law_of_square(np.asarray(law.edge_curvature), equal / model.h)
+        others.append(Contribution(-curved[0], -curved[1]))
+    for plate in others:
+        depth = depth + part * root * root * plate.depth
+        additive = additive + part * plate.slope
+    return at.force, depth, additive * growth * root, additive
+
+
+def solution(law: "ContactLaw", a: Array) -> SolvedShape:
+    """Return the solution, without the linear deflection, at contact radii [m].
+
+    Scenes with the same case are evaluated together.
+    """
+    model = law.model
+    a = np.maximum(a, LEAST * np.minimum(np.minimum(model.h, model.b), model.R))
+    if not np.ndim(model.R):
+        return shape_at(a, law.case, law.limit)
+    limits: Any = law.limit
+    rows: dict[tuple[SolvedCase, float], list[int]] = {}
+    for row, known in enumerate(zip(cases(law), limits[:, 0].tolist(), strict=True)):
+        rows.setdefault(known, []).append(row)
+    numbers = np.empty((len(SolvedShape._fields), *a.shape))
+    for (case, last), equal in rows.items():
+        numbers[:, equal] = shape_at(a[equal], case, last)
+    return SolvedShape(*numbers)
+
+
+def limit(law: "ContactLaw", widest: Any) -> Any:
+    """Return the largest radius [m], at most `widest`, of contacts closed at the centre."""
+    tops = np.broadcast_to(widest, np.shape(law.model.R)).ravel().tolist()
+    return _column(law, [*map(closed_up_to, cases(law), tops)])
+
+
+def cases(law: "ContactLaw") -> list[SolvedCase]:
+    """Return the quantities that determine the contact, of each scene."""
+    m, edge = law.model, law.edge_curvature
+    numbers = np.broadcast_arrays(m.h, m.b, m.R, law.modulus, m.modulus, edge)
+    columns = (values.ravel().tolist() for values in numbers)
+    return [SolvedCase._make((*row, law.spherical)) for row in zip(*columns, strict=True)]
+
+
+def _column(law: "ContactLaw", values: list[float]) -> Any:
+    """Return the values of all scenes as a column, or the value of one scene."""
+    return np.array(values)[:, None] if np.ndim(law.model.R) else values[0]

@@ -12,7 +12,7 @@ from test_rows import check, in_arrays
 from derivation.scene import read
 from derivation.scene.contact_law import solved_contact
 from derivation.scene.contact_law.closed_contact import closed_up_to
-from derivation.scene.contact_law.solved_contact import SolvedCase, shape_at
+from derivation.scene.contact_law.solved_contact import SolvedCase, force_at, shape_at
 from generated import non_hertzian_pressure
 
 ACCURACY = 6e-14
@@ -59,6 +59,27 @@ def test_interpolation_equals_the_solution(
     pressure = 2.0 / math.pi * case.modulus * a / case.R * shape.centre
     difference = np.abs(pressure - solution.centre_pressure) / solution.mean_pressure
     assert np.max(difference) < ACCURACY
+
+
+@pytest.mark.parametrize("edge", [-0.3, 0.0, 0.1])
+@pytest.mark.parametrize(
+    ("h", "R", "sphere"), [(0.005, 0.5, True), (0.05, 30.0, False), (1e-4, 0.01, True)]
+)
+def test_contact_is_lost_just_beyond_the_widest_one(
+    h: float, R: float, sphere: bool, edge: float
+) -> None:
+    case = SolvedCase(h, 1.0, R, 1e10, 1e10, edge, sphere)
+    high = min(0.9, 0.95 * R, 6.0 * h)
+    widest = closed_up_to(case, high)
+    lost = 0.5 * (high + widest) if widest < high else high
+    for _ in range(40):  # halve the interval, down to rounding
+        middle = 0.5 * (widest + lost)
+        if math.isnan(force_at(middle, case)):
+            lost = middle
+        else:
+            break
+    assert math.isfinite(force_at(widest, case))
+    assert widest == high or lost - widest <= 1.001e-9 * widest
 
 
 def test_a_contact_without_a_polynomial_is_solved_at_each_radius(

@@ -16,7 +16,7 @@ from derivation.scene.numerics.chebyshev import points
 from generated.arrays import Double as Array
 
 if TYPE_CHECKING:
-    from generated.non_hertzian_pressure import Plate
+    from generated.non_hertzian_pressure import Contact, Plate
 
 DEGREES = 23, 47
 """Degrees of the polynomials, tried in this order."""
@@ -140,12 +140,8 @@ def _table(case: SolvedCase, first: float, last: float) -> Array | None:
 
 def _shape(a: Array, case: SolvedCase) -> SolvedShape:
     """Return the shape by the solution at each radius [m]."""
-    from generated import non_hertzian_pressure
-
-    h, b, R, modulus, plate_modulus, edge, sphere = case
-    plate = plate_of(h, b, edge)._replace(first=0.0)
-    one = non_hertzian_pressure.contact(plate, a, R, modulus, plate_modulus, sphere=sphere)
-    bodies = np.asarray(R), np.asarray(modulus)
+    one, R = _solved(a, case, linear=False), case.R
+    bodies = np.asarray(R), np.asarray(case.modulus)
     force = one.force / kernels.hertz_force(a, *bodies)
     stiffness = one.stiffness / kernels.hertz_stiffness(a, bodies[1])
     growth = stiffness * one.slope * (R / a) / 2.0
@@ -165,9 +161,21 @@ def pressure_at(r: Array, a: float, case: SolvedCase) -> Array:
 @lru_cache(maxsize=MANY)
 def force_at(a: float, case: SolvedCase) -> float:
     """Return the force at a contact radius [m]; NaN if contact is lost at the centre."""
+    return float(_solved(np.array([a]), case).force[0])
+
+
+def centres_at(a: Array, case: SolvedCase) -> Array:
+    """Return the pressure at the centre over the mean one at radii [m]; NaN if contact is lost."""
+    contact = _solved(a, case)
+    return np.asarray(contact.centre_pressure / contact.mean_pressure)
+
+
+def _solved(a: Array, case: SolvedCase, linear: bool = True) -> "Contact":
+    """Solve the integral equation at radii [m], with or without the linear deflection."""
     from generated import non_hertzian_pressure
 
-    h, b, R, modulus, plate_modulus, edge, sphere = case
-    plate = plate_of(h, b, edge)
-    one = non_hertzian_pressure.contact(plate, a, R, modulus, plate_modulus, sphere=sphere)
-    return float(one.force)
+    plate = plate_of(case.h, case.b, case.edge)
+    if not linear:
+        plate = plate._replace(first=0.0)
+    bodies = case.R, case.modulus, case.plate_modulus
+    return non_hertzian_pressure.contact(plate, a, *bodies, sphere=case.sphere)

@@ -1,5 +1,7 @@
 """The contact law with non-Hertzian pressure, of one scene or of many as columns."""
 
+import itertools
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -45,22 +47,24 @@ def shape(law: "ContactLaw", a: Array) -> tuple[Array, Array, Array, Array]:
     return at.force, depth, additive * growth * root, additive
 
 
-def solution(law: "ContactLaw", a: Array) -> SolvedShape:
+def solution(law: "ContactLaw", a: Array, own_edge: bool = True) -> SolvedShape:
     """Return the solution, without the linear deflection, at contact radii [m].
 
-    Scenes with the same case are evaluated together.
+    Scenes with the same case are evaluated together. The plate has the edge of the law, or else
+    that of the paper, with which contact may be lost at a smaller radius; the solution then is NaN.
     """
     model = law.model
     a = np.maximum(a, LEAST * np.minimum(np.minimum(model.h, model.b), model.R))
-    if not np.ndim(model.R):
-        return shape_at(a, law.case, law.limit)
-    limits: Any = law.limit
+    limits = np.ravel(law.limit).tolist() if own_edge else itertools.repeat(math.inf)
     rows: dict[tuple[SolvedCase, float], list[int]] = {}
-    for row, known in enumerate(zip(cases(law), limits[:, 0].tolist(), strict=True)):
+    for row, known in enumerate(zip(cases(law, own_edge), limits, strict=False)):
         rows.setdefault(known, []).append(row)
+    if not np.ndim(model.R):
+        [known] = rows
+        return shape_at(a, *known)
     numbers = np.empty((len(SolvedShape._fields), *a.shape))
-    for (case, last), equal in rows.items():
-        numbers[:, equal] = shape_at(a[equal], case, last)
+    for known, equal in rows.items():
+        numbers[:, equal] = shape_at(a[equal], *known)
     return SolvedShape(*numbers)
 
 
@@ -70,9 +74,9 @@ def limit(law: "ContactLaw", widest: Any) -> Any:
     return _column(law, [*map(closed_up_to, cases(law), tops)])
 
 
-def cases(law: "ContactLaw") -> list[SolvedCase]:
+def cases(law: "ContactLaw", own_edge: bool = True) -> list[SolvedCase]:
     """Return the quantities that determine the contact, of each scene."""
-    m, edge = law.model, law.edge_curvature
+    m, edge = law.model, law.edge_curvature if own_edge else 0.0
     numbers = np.broadcast_arrays(m.h, m.b, m.R, law.modulus, m.modulus, edge)
     columns = (values.ravel().tolist() for values in numbers)
     return [SolvedCase._make((*row, law.spherical)) for row in zip(*columns, strict=True)]

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from derivation.scene.contact_law.corrections import stretching
-from derivation.scene.contact_law.edge_curvature import edge_curvature_errors
+from derivation.scene.contact_law.edge_curvature import curvature_errors
 from derivation.scene.contact_law.edge_remainder import edge_remainders
 from derivation.scene.contact_law.finite_sphere import finite_sphere_error, vibration_error
 from derivation.scene.contact_law.impact_errors import ImpactErrors
@@ -351,10 +351,8 @@ def _model_errors(
     pressed = np.zeros_like(error)
     if law.other_edge:
         edge = edge_remainders(law.model, a)[:, 0]
-        if law.solved:
-            radii = enumerate(a[:, 0].tolist())
-            each = [edge_curvature_errors(law.take(row), radius) for row, radius in radii]
-            curvature, pressure = np.array(each).T
+        curvature, pressure = (errors[:, 0] for errors in curvature_errors(law, a))
+        with np.errstate(invalid="ignore"):  # infinite errors of rows without a result
             edge, pressed = edge + curvature, pressure - curvature
         error = edge + error
     with np.errstate(all="ignore"):

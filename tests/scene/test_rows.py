@@ -228,6 +228,16 @@ def test_rows_do_not_depend_on_their_number(monkeypatch: pytest.MonkeyPatch) -> 
     assert list(parts.effects) == list(whole.effects)
 
 
+def test_rows_in_arrays_end_after_the_given_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A batch of a study ends if its rows take far longer than those before."""
+    columns = {"impact.speed": np.linspace(0.1, 0.5, 7)}
+    monkeypatch.setattr(many, "FIRST", 3)
+    some = solve(scene_with(), columns, 1e-1, seconds=0.0)
+    assert set(some.status) == {"finished"}
+    assert len(some) == 3
+    assert len(solve(scene_with(), columns, 1e-1)) == 7
+
+
 @pytest.mark.parametrize("length", [1e-3, 1e3])
 def test_rows_in_other_units_of_length_are_the_same_impacts(length: float) -> None:
     """The results scale with the unit of length as their dimensions require."""

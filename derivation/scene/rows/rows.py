@@ -46,8 +46,9 @@ from derivation.scene.selection.selection import check_enabled
 from derivation.scene.tensile_stress import static_errors, vibration
 from generated.arrays import Double as Array
 
-BLOCK = 2**15
-"""Number of rows computed together, which bounds the memory."""
+FIRST, BLOCK = 2**11, 2**15
+"""Number of rows that are first computed together, in case they take long, and the largest number,
+which bounds the memory."""
 ROUNDING = 1e-14
 """Distance of a bound from the tolerance at which the row is simulated singly [1]."""
 SPEED, STRENGTH = "impact.speed", "plate.tensile_strength"
@@ -119,7 +120,7 @@ def solve(
     rtol
         Relative tolerance of the results [1], as for `simulate`.
     seconds
-        Run time after which no more rows are simulated one by one [s].
+        Run time after which no more rows are simulated [s].
 
     Returns
     -------
@@ -144,14 +145,18 @@ def solve(
         )
     [(count,)] = lengths
     rows, until = _empty(count), time.perf_counter() + seconds
-    for start in range(0, count, BLOCK):
-        part = {key: values[start : start + BLOCK] for key, values in given.items()}
+    start, size = 0, min(FIRST, BLOCK)
+    while start < count:
+        if start and time.perf_counter() > until:
+            return rows.first(start)
+        part = {key: values[start : start + size] for key, values in given.items()}
         groups = _groups(scene, part, rtol, rows, start)
         left = {row: group for group in groups for row in group.run().tolist()}
         for row in sorted(left):
             if row and time.perf_counter() > until:
                 return rows.first(row)
             left[row].one(row)
+        start, size = start + size, min(4 * size, BLOCK)
     return rows
 
 

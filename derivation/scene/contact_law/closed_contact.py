@@ -1,6 +1,7 @@
 """The largest radius of a contact with non-Hertzian pressure that is closed at its centre."""
 
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -10,7 +11,16 @@ from derivation.scene.numerics.crossing import last_true
 _HALVINGS = 30
 
 
-@lru_cache(maxsize=32)
+def largest_closed(case: SolvedCase, high: float) -> Any:
+    """Return `closed_up_to` for one scene, or for many as a column."""
+    radii = np.broadcast_arrays(high, *case)[0]
+    if not radii.ndim:
+        return closed_up_to(case, float(high))
+    pairs = zip(case.rows(len(radii)), radii[:, 0].tolist(), strict=True)
+    return np.array([closed_up_to(one, largest) for one, largest in pairs])[:, None]
+
+
+@lru_cache(maxsize=128)
 def closed_up_to(case: SolvedCase, high: float) -> float:
     """Return the radius [m], at most `high`, up to which a contact is closed at its centre.
 

@@ -13,13 +13,13 @@ modulus E* of the contact over that of the plate. For a paraboloid p = D_sphere 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from derivation.scene import kernels
-from derivation.scene.contact_law.closed_contact import closed_up_to
+from derivation.scene.contact_law.closed_contact import largest_closed
 from derivation.scene.contact_law.solved_contact import SolvedCase, contact_at, pressure_at
 from derivation.scene.effects import BY_NAME, PAPER, WHOLE_PLATE, edge
 from derivation.scene.effects.effect import Contribution, Effect, PlateEffect, Reach
@@ -76,7 +76,10 @@ class ContactLaw:
 
     def take(self, index: Any) -> "ContactLaw":
         """Return the law of some of many scenes (see `Model.take`)."""
-        return replace(self, model=self.model.take(index))
+        taken, limit = replace(self, model=self.model.take(index)), vars(self).get("limit")
+        if isinstance(limit, np.ndarray):
+            vars(taken)["limit"] = limit[index]
+        return taken
 
     def only(self, wanted: Callable[[Effect], bool]) -> "ContactLaw":
         """Return the law with only those effects that meet a condition."""
@@ -155,7 +158,7 @@ class ContactLaw:
 
         It is 0 with plate inertia: the modes of the plate contain the curvature by its edge.
         """
-        return float(self.model.edge_curvature) if self.other_edge and not self.dynamic else 0.0
+        return self.model.edge_curvature if self.other_edge and not self.dynamic else 0.0
 
     @property
     def modulus(self) -> float:
@@ -170,8 +173,7 @@ class ContactLaw:
     @cached_property
     def limit(self) -> float:
         """Largest contact radius [m] of the law, at most where contact is lost at the centre."""
-        high = self._widest
-        return closed_up_to(self.case, float(high)) if self.solved else high
+        return largest_closed(self.case, self._widest) if self.solved else self._widest
 
     @cached_property
     def _widest(self) -> float:
@@ -329,7 +331,7 @@ class ContactLaw:
     def _solved(self, a: Array) -> Shape:
         """Return the shape with non-Hertzian pressure; an edge's curvature is in its kernel."""
         # Near a = 0 the pressure is Hertzian.
-        a = np.maximum(a, 1e-12 * min(self.model.h, self.model.b, self.model.R))
+        a = np.maximum(a, 1e-12 * np.minimum(np.minimum(self.model.h, self.model.b), self.model.R))
         shape = contact_at(a, self.case)
         R = self.model.R
         force = shape.force / kernels.hertz_force(a, *self._bodies)
@@ -341,8 +343,8 @@ class ContactLaw:
         growth = shape.stiffness * shape.slope / (2.0 * hertz) * (R / equal)
         part = 1.0 / (1.0 + self.softness)
         others = [effect.contribution(self.model, equal) for effect in self._beyond_whole_plate]
-        if self.edge_curvature:
-            curved = kernels.law_of_square(np.array(self.edge_curvature), equal / self.model.h)
+        if np.any(self.edge_curvature):
+            curved = kernels.law_of_square(np.asarray(self.edge_curvature), equal / self.model.h)
             others.append(Contribution(-curved[0], -curved[1]))
         for plate in others:
             depth = depth + part * (equal / a) ** 2 * plate.depth
@@ -380,10 +382,7 @@ class ContactLaw:
         if any(effect.difference for effect in others):
             parts, others = [self._plate(a)], self._beyond_whole_plate
         parts += [effect.contribution(self.model, a) for effect in others]
-        depth, slope = parts[0]
-        for other in parts[1:]:
-            depth, slope = depth + other.depth, slope + other.slope
-        return Contribution(depth, slope)
+        return Contribution(*(reduce(np.add, each) for each in zip(*parts, strict=True)))
 
     def _plate(self, a: Array) -> Contribution:
         """Return the contribution of the whole plate minus that of its omitted effects."""

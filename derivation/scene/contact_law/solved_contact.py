@@ -1,7 +1,7 @@
 """Contacts with non-Hertzian pressure, cached because bounds and motion need the same radii."""
 
 from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class SolvedCase(NamedTuple):
-    """The quantities that determine the contact of a law at a radius.
+    """The quantities that determine the contact of a law at a radius, for many scenes in columns.
 
     Attributes
     ----------
@@ -34,8 +34,13 @@ class SolvedCase(NamedTuple):
     sphere: bool
     edge: float
 
+    def rows(self, count: int) -> list["SolvedCase"]:
+        """Return the quantities of each of many scenes."""
+        columns = (np.broadcast_to(x, (count, 1))[:, 0].tolist() for x in self)
+        return [SolvedCase(*numbers) for numbers in zip(*columns, strict=True)]
 
-@lru_cache(maxsize=16)
+
+@lru_cache(maxsize=64)
 def plate_of(h: float, b: float, edge: float) -> "Plate":
     """Return the kernel of a plate, see `generated.non_hertzian_pressure.plate`."""
     from generated import non_hertzian_pressure
@@ -49,11 +54,22 @@ def contact_at(a: Array, case: SolvedCase) -> "Contact":
     Parameters
     ----------
     a
-        Contact radii [m], not too small.
+        Contact radii [m], not too small; a row of them for each of many scenes.
     case
         Plate and sphere.
     """
-    return _contact(a.tobytes(), a.shape, case)
+    if a.ndim == 1:
+        return _contact(a.tobytes(), a.shape, case)
+    cases, plates = case.rows(len(a)), dict[SolvedCase, list[int]]()
+    for row, one in enumerate(cases):  # all radii of a plate together
+        plates.setdefault(one._replace(R=0.0, modulus=0.0, plate_modulus=0.0), []).append(row)
+    parts = []
+    for one, rows in plates.items():
+        columns: Any = np.array([cases[row][2:5] for row in rows])
+        R, modulus, own = (columns[:, i : i + 1] for i in range(3))
+        parts.append(solved(a[rows], one._replace(R=R, modulus=modulus, plate_modulus=own)))
+    order = np.argsort(np.concatenate([np.array(rows) for rows in plates.values()]))
+    return type(parts[0])(*(np.concatenate(x)[order] for x in zip(*parts, strict=True)))
 
 
 @lru_cache(maxsize=16)

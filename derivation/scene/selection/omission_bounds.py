@@ -41,8 +41,8 @@ from generated.arrays import Double as Array
 
 TOP = 1.02
 """Bounds cover radii up to this times the largest radius."""
-NEAR = 1e-6
-"""Relative accuracy of the largest radius that suffices for this."""
+NEAR = 1e-4
+"""Last step of the iteration for the largest radius, whose error is about the square of it."""
 FEW = 3
 """Number of nodes for laws with S = 1, whose bounds are largest at the largest radius."""
 MARGIN = 1.05

@@ -48,6 +48,7 @@ from derivation.scene.model_errors import model_errors
 from derivation.scene.result import Result
 from derivation.scene.scene import OUTPUTS, TIGHTEST, Scene, check_scene
 from derivation.scene.selection.achieved_accuracy import ESTIMATED, AchievedAccuracy, Part
+from derivation.scene.selection.candidates import check_enabled
 from derivation.scene.selection.effect_selection import SelectedEffects, decide
 from derivation.scene.selection.method_selection import (
     accuracy_on,
@@ -56,7 +57,6 @@ from derivation.scene.selection.method_selection import (
     growth_of,
     solve_selected,
 )
-from derivation.scene.selection.selection import check_enabled
 from derivation.scene.tensile_stress import TensileStress, tensile_stress
 
 DEFAULT = 1e-3

@@ -41,7 +41,7 @@ from derivation.scene.model import model_of
 from derivation.scene.output.html import html_table
 from derivation.scene.quantity import up_to
 from derivation.scene.scene import Scene
-from derivation.scene.selection.selection import check_enabled
+from derivation.scene.selection.candidates import check_enabled
 from derivation.scene.static_contact import (
     UNITS,
     Loaded,

@@ -142,12 +142,12 @@ class Model:
         return kernels.Plate(*(np.where(within, x, np.inf) for x in plates))
 
     @cached_property
-    def edge_curvature(self) -> kernels.Numbers:
+    def edge_curvature(self) -> float:
         """Coefficient of (t^2 + s^2)/h^3 in the contact kernel by the edge of the scene [1]."""
         if self.edge not in _CURVATURES:
             return 0.0
-        value: kernels.Numbers = _CURVATURES[self.edge](self.h, self.b, self.lam, self.mu)
-        return value
+        curvature: Any = _CURVATURES[self.edge](self.h, self.b, self.lam, self.mu)
+        return curvature  # type: ignore[no-any-return]
 
     @cached_property
     def supports(self) -> Supports:

@@ -1,11 +1,13 @@
 """Scales of an impact: on a half-space, Zener's parameter, the volume of the sphere."""
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from derivation.scene import kernels
+from derivation.scene.numerics import columns
 
 if TYPE_CHECKING:
     from derivation.scene.model import Model
@@ -20,26 +22,27 @@ def hertz_constant(model: "Model", modulus: float | None = None) -> float:
         E* [Pa]; by default that of plate and sphere.
     """
     of_both = model.modulus / (1.0 + model.softness) if modulus is None else modulus
-    return _number(kernels.hertz_constant(np.asarray(model.R), np.asarray(of_both)))
+    return evaluated(kernels.hertz_constant, model.R, of_both)
 
 
 def time_unit(model: "Model", modulus: float | None = None) -> float:
     """Return T [s], T^5 = m^2/(K^2 v0); K as in `hertz_constant`."""
     K = hertz_constant(model, modulus)
-    return _number(kernels.zener_time_unit(*map(np.asarray, (model.m, model.v0, K))))
+    return evaluated(kernels.zener_time_unit, model.m, model.v0, K)
 
 
 def largest_depth(model: "Model", modulus: float | None = None) -> float:
     """Return the largest indentation [m] without gravity; K as in `hertz_constant`."""
     K = hertz_constant(model, modulus)
-    return _number(kernels.hertz_depth(*map(np.asarray, (model.m, model.v0, K))))
+    return evaluated(kernels.hertz_depth, model.m, model.v0, K)
 
 
 def zener_number(model: "Model") -> float:
     """Return the Zener parameter [1], with the elasticity of the sphere included."""
     R, m, v0, h, _, lam, mu = model.numbers
-    of_rigid_sphere = kernels.zener_number(R, m, v0, h, lam, mu, model.density)
-    return _number(of_rigid_sphere / np.power(1.0 + model.softness, 0.4))
+    of_rigid_sphere = evaluated(kernels.zener_number, R, m, v0, h, lam, mu, model.density)
+    number: float = of_rigid_sphere / np.power(1.0 + model.softness, 0.4)
+    return number
 
 
 def volume(R: Any) -> Any:
@@ -47,7 +50,11 @@ def volume(R: Any) -> Any:
     return 4.0 / 3.0 * math.pi * (R * R * R)
 
 
-def _number(value: Any) -> float:
-    """Return a number as such; for a column of models, as elsewhere, the array."""
-    number: float = value if np.ndim(value) else float(value)
-    return number
+def evaluated(function: Callable[..., Any], *numbers: Any) -> float:
+    """Return the value of a generated function for the numbers of a model; for many, as a column.
+
+    The function takes arrays: NumPy rounds the power of a single number differently, and results
+    must not depend on whether a scene is one of many.
+    """
+    number: Any = columns.number(np.asarray(function(*map(np.atleast_1d, numbers))))
+    return number  # type: ignore[no-any-return]

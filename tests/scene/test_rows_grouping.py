@@ -1,16 +1,18 @@
 """Groups of almost equal rows: they change neither the effects nor the results of any row."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 from shared_scenes import PAPER
 
 from derivation.scene import load, read
-from derivation.scene.rows import grouping, selection
+from derivation.scene.contact_law.law import ContactLaw
+from derivation.scene.rows import grouping
+from derivation.scene.rows import selection as of_rows
 from derivation.scene.rows.columns import models_of
 from derivation.scene.rows.rows import Rows, solve
 from derivation.scene.scene import OUTPUTS, Scene
+from derivation.scene.selection import selection
+from derivation.scene.selection.omission_bounds import LargestContact
 
 COUNT = 4000
 STEEL = {"radius": 0.3, "thickness": 0.2, "material": "steel", "yield_stress": 5e8}
@@ -62,8 +64,8 @@ def test_groups_are_divided_at_the_onset_of_yield(monkeypatch: pytest.MonkeyPatc
         speeds = np.linspace(0.011, 0.0125, COUNT)[::order]
         model, _ = models_of(scene, {"impact.speed": speeds})
         found = ["simulated singly"] * COUNT
-        for group in selection.selected(model, scene.effects.model_dump(), rtol, OUTPUTS):
-            assert isinstance(group, selection.Group)
+        for group in of_rows.selected(model, scene.effects.model_dump(), rtol, OUTPUTS):
+            assert isinstance(group, of_rows.Group)
             for row in group.rows:
                 found[row] = " ".join(sorted(group.law.effects))
         return found
@@ -77,17 +79,23 @@ def test_groups_are_divided_at_the_onset_of_yield(monkeypatch: pytest.MonkeyPatc
 
 
 def test_groups_save_bounds(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without groups, the bounds of each row are computed at each step."""
-    counts: list[int] = []
-    original = selection._errors
+    """Without groups, the largest contact of each row is computed at each step."""
+    original = selection.state_of
 
-    def counted(given: Any, law: Any, rtol: Any, outputs: Any) -> Any:
-        counts.append(len(rtol))
-        return original(given, law, rtol, outputs)
+    def solved() -> int:
+        counts: list[int] = []
 
-    monkeypatch.setattr(selection, "_errors", counted)
-    solve(load(PAPER), {"impact.speed": np.linspace(0.5, 2.0, COUNT)})
-    assert sum(counts) < COUNT
+        def counted(law: ContactLaw) -> LargestContact:
+            counts.append(np.size(law.model.v0))
+            return original(law)
+
+        monkeypatch.setattr(selection, "state_of", counted)
+        solve(on_glass("paper"), {"impact.speed": np.linspace(0.05, 0.1, COUNT)}, 1e-2)
+        return sum(counts)
+
+    with_groups = solved()
+    monkeypatch.setattr(grouping, "SHARE", 0.0)
+    assert with_groups < 0.7 * solved()
 
 
 @pytest.mark.parametrize("numbers", [[-1.0, 1.0], [0.0, 1.0]])

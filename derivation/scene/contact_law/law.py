@@ -13,7 +13,7 @@ modulus E* of the contact over that of the plate. For a paraboloid p = D_sphere 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -79,7 +79,10 @@ class ContactLaw:
 
     def take(self, index: Any) -> "ContactLaw":
         """Return the law of some of many scenes (see `Model.take`)."""
-        return replace(self, model=self.model.take(index))
+        taken, limit = replace(self, model=self.model.take(index)), vars(self).get("limit")
+        if isinstance(limit, np.ndarray) and not isinstance(index, int):
+            vars(taken)["limit"] = limit[index]
+        return taken
 
     def only(self, wanted: Callable[[Effect], bool]) -> "ContactLaw":
         """Return the law with only those effects that meet a condition."""
@@ -359,10 +362,7 @@ class ContactLaw:
         if any(effect.difference for effect in others):
             parts, others = [self._plate(a)], self.beyond_whole_plate
         parts += [effect.contribution(self.model, a) for effect in others]
-        depth, slope = parts[0]
-        for other in parts[1:]:
-            depth, slope = depth + other.depth, slope + other.slope
-        return Contribution(depth, slope)
+        return Contribution(*(reduce(np.add, each) for each in zip(*parts, strict=True)))
 
     def _plate(self, a: Array) -> Contribution:
         """Return the contribution of the whole plate minus that of its omitted effects."""

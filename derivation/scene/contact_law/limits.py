@@ -1,7 +1,7 @@
 """Limits of the contact law: errors beyond its range, warnings where it becomes inaccurate."""
 
 import math
-from typing import NamedTuple, NoReturn, TypeVar
+from typing import Any, NamedTuple, NoReturn, TypeVar
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.errors import SceneError, wide_contact
 from derivation.scene.kernels import Numbers
 from derivation.scene.model import Model
+from derivation.scene.numerics import columns
 from derivation.scene.numerics.quadrature import gauss
 from derivation.scene.scales import zener_number
 from generated.arrays import Double as Array
@@ -147,12 +148,16 @@ def _no_number(model: Model) -> SceneError:
     )
 
 
-def energy_of(law: ContactLaw, a: float) -> float:
-    """Return the energy [J] absorbed up to a contact radius [m], the integral of P over delta."""
+def energy_of(law: ContactLaw, a: Values) -> Values:
+    """Return the energy [J] absorbed up to a contact radius [m], the integral of P over delta.
+
+    For many scenes, radii and energies are columns.
+    """
     x, weights = gauss(POINTS)
     shape = law.at(x * a)
-    mean = float(np.sum(weights * x**4 * shape.force * shape.slope))
-    return 8.0 / 3.0 * law.modulus * a * a * (a / law.model.R) * a * (a / law.model.R) * mean
+    power = weights * x**4 * shape.force * shape.slope
+    mean: Any = columns.number(np.sum(power, axis=-1, keepdims=True))
+    return 8.0 / 3.0 * law.modulus * a * a * (a / law.model.R) * a * (a / law.model.R) * mean  # type: ignore[no-any-return]
 
 
 def warnings_at(

@@ -1,6 +1,6 @@
 """Damping: the plate modes dissipate energy, so that vibration and reflected waves decay."""
 
-import math
+from functools import reduce
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +11,7 @@ from derivation.scene.effects.effect import (
     BoundContext,
     Effect,
     Numbers,
+    bounded_where,
     none_of,
     weight_work_ratio,
 )
@@ -53,7 +54,6 @@ class Damping(Effect):
     within = "inertia"
     static = False
     damps = True
-    takes_rows = False
     remedy = "give plate.loss_factor and plate.density [kg/m^3]"
 
     def not_applicable_reason(self, model: Model) -> str:
@@ -81,12 +81,11 @@ class Damping(Effect):
         """
         none = none_of(context.radii)
         heavier = 1.0 + weight_work_ratio(model, context.depth)
-        T = SLOWEST * context.depth / (model.v0 * math.sqrt(heavier))
-        a, force = float(context.radii[-1]), float(context.samples.force[-1])
+        T = SLOWEST * context.depth / (model.v0 * np.sqrt(heavier))
+        a, force = context.radii[..., -1:], context.samples.force[..., -1:]
         viscous = viscous_number(model)
-        most = max(PlateInertia().bound(model, context).results)
-        if not most < NO_BOUND:
-            return Bound(none, none, results=5 * (math.inf,))
+        inertia = PlateInertia().bound(model, context).results
+        known = np.asarray(reduce(np.maximum, inertia) < NO_BOUND)
 
         def changed(phase: Array, rise: Numbers) -> Array:
             steady = np.minimum(VARIATION, np.minimum(phase * phase, TURNING / (phase * rise)))
@@ -99,7 +98,7 @@ class Damping(Effect):
         logs: list[Numbers] = [factor * off for factor in SENSITIVITY]
         logs[0], logs[4] = heavier * logs[0], heavier * logs[4]
         logs = after_yield(logs, plastic_restitution(model, context))
-        return Bound(none, none, results=dissipated(logs, viscous))
+        return Bound(none, none, results=bounded_where(known, dissipated(logs, viscous)))
 
     def proved(self, law: "ContactLaw") -> bool:  # noqa: ARG002
         """Return False: tested on random scenes."""

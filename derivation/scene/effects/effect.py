@@ -10,7 +10,7 @@ modulus E* of the law, a^3 = 3 P R/(4 E*),
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
@@ -76,14 +76,6 @@ class BoundContext:
         assert self.sampled is not None
         return self.sampled()
 
-    def row(self, index: int) -> "BoundContext":
-        """Return the context of one of many scenes."""
-        depth = np.asarray(self.depth)[index].item()
-        if self.sampled is None:
-            return BoundContext(self.radii[index], depth)
-        samples = LawSamples(*(x[index] for x in self.samples))
-        return BoundContext(self.radii[index], depth, lambda: samples)
-
     def scaled(self, factor: Numbers | None) -> "BoundContext":
         """Return the context with all radii multiplied by a factor."""
         return self if factor is None else replace(self, radii=self.radii * factor)
@@ -130,15 +122,12 @@ class Bound(NamedTuple):
     results: Changes = (0.0, 0.0, 0.0, 0.0, 0.0)
 
 
-def together(bounds: Sequence[Bound]) -> Bound:
-    """Combine the bounds of single scenes to those of many."""
-    low, up = (np.array([bound[i] for bound in bounds]) for i in (0, 1))
-    energy = columns.column(bound.energy for bound in bounds)
-    radius = columns.column(bound.radius for bound in bounds)
-    time, depth, force, width, speed = (
-        columns.column(bound.results[i] for bound in bounds) for i in range(len(bounds[0].results))
+def bounded_where(known: NDArray[np.bool_], changes: Changes) -> Changes:
+    """Return the changes of the results where they are known, and infinity elsewhere."""
+    time, depth, force, radius, speed = (
+        columns.number(np.where(known, change, np.inf)) for change in changes
     )
-    return Bound(low, up, energy, radius, (time, depth, force, width, speed))
+    return time, depth, force, radius, speed
 
 
 LENGTHS = {"b": "plate radius", "R": "sphere radius", "h": "half the plate thickness"}
@@ -213,8 +202,6 @@ class Effect:
         Whether the plate modes are damped.
     stretches
         Whether the middle plane of the plate stretches.
-    takes_rows
-        Whether `bound` accepts many scenes at once.
     within
         Name of an effect that it is a part of; if the scene disables that, it does not apply.
     remedy
@@ -244,7 +231,6 @@ class Effect:
     dynamic: ClassVar[bool] = False
     damps: ClassVar[bool] = False
     stretches: ClassVar[bool] = False
-    takes_rows: ClassVar[bool] = True
     within: ClassVar[str] = ""
     remedy: ClassVar[str] = ""
     cause: ClassVar[str] = ""

@@ -21,7 +21,6 @@ class Stretching(Effect):
     within = "inertia"
     static = False
     stretches = True
-    takes_rows = False
     remedy = "give plate.density [kg/m^3] and a plate of finite extent"
     cause = (
         "needed, because without it the model error of a result would be about "

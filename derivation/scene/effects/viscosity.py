@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from derivation.scene import kernels
+from derivation.scene import kernels, scales
 from derivation.scene.effects.effect import (
     Bound,
     BoundContext,
@@ -14,6 +14,7 @@ from derivation.scene.effects.effect import (
     none_of,
 )
 from derivation.scene.model import Model
+from derivation.scene.numerics import columns
 
 if TYPE_CHECKING:
     from derivation.scene.contact_law.law import ContactLaw
@@ -49,7 +50,6 @@ class Viscosity(Effect):
     static = False
     hertzian = True
     viscous = True
-    takes_rows = False
     remedy = "give plate.retardation_time or sphere.retardation_time [s]"
 
     def not_applicable_reason(self, model: Model) -> str:
@@ -67,21 +67,28 @@ class Viscosity(Effect):
         """
         force, depth, stiffness, energy, growth = context.samples
         speed = np.sqrt(2.0 * (energy / model.m))
-        epsilon = model.retardation_time * float(np.max(stiffness / force * speed))
         steepness = stiffness / force * depth
         steepening = 2.0 * stiffness / force * (energy / force) - 1.0
         deepening = 2.0 * energy / force / depth
-        extremes = kernels.ImpactExtremes(
-            MARGIN * epsilon,
-            MARGIN * float(np.max(steepness) / steepness[-1]),
-            MARGIN * max(0.0, -float(np.min(steepening))),
-            MARGIN * max(0.0, float(np.max(steepening))),
-            MARGIN * float(np.max(deepening)),
-            MARGIN * float(np.max(deepening / growth)),
-            max(1.0, MARGIN * float(energy[-1] / model.m) * 2.0 / model.v0 / model.v0),
+        extremes = np.concatenate(
+            (
+                MARGIN * (model.retardation_time * columns.most(stiffness / force * speed)),
+                MARGIN * (columns.most(steepness) / steepness[..., -1:]),
+                MARGIN * np.maximum(0.0, -columns.least(steepening)),
+                MARGIN * np.maximum(0.0, columns.most(steepening)),
+                MARGIN * columns.most(deepening),
+                MARGIN * columns.most(deepening / growth),
+                np.maximum(1.0, MARGIN * (energy[..., -1:] / model.m) * 2.0 / model.v0 / model.v0),
+            ),
+            axis=-1,
         )
+        rows = (kernels.ImpactExtremes(*row) for row in np.atleast_2d(extremes).tolist())
+        logs = np.array([kernels.viscous_logarithms(row) for row in rows])
         none = none_of(context.radii)
-        return Bound(none, none, results=kernels.viscous_logarithms(extremes))
+        time, peak, pull, radius, leaving = (
+            columns.number(x.reshape(extremes[..., :1].shape)) for x in logs.T
+        )
+        return Bound(none, none, results=(time, peak, pull, radius, leaving))
 
     def proved(self, law: "ContactLaw") -> bool:  # noqa: ARG002
         """Return False: proved only for a half-space."""
@@ -145,8 +152,9 @@ def viscous_number(model: Model) -> Numbers:
     """Return the viscous parameter x_v of Hertz's contact [1]; 0 without a retardation time."""
     if not np.any(model.retardation_time):
         return 0.0
-    number = kernels.viscous_number(
-        model.R, model.m, model.v0, model.lam, model.mu, model.retardation_time
+    number = scales.evaluated(
+        kernels.viscous_number,
+        *(model.R, model.m, model.v0, model.lam, model.mu, model.retardation_time),
     )
     parameter: Numbers = number * np.power(1.0 + model.softness, -0.4)
     return parameter

@@ -1,7 +1,5 @@
 """Numbers of one scene, or of many scenes as columns."""
 
-from collections.abc import Iterable
-
 import numpy as np
 
 from derivation.scene.kernels import Numbers
@@ -33,8 +31,3 @@ def most(values: Array) -> Array:
 def least(values: Array) -> Array:
     """Return the smallest value of each scene."""
     return -most(-values)
-
-
-def column(numbers: Iterable[Numbers]) -> Array:
-    """Return numbers as a column."""
-    return np.array([np.asarray(x).item() for x in numbers])[:, None]

@@ -6,20 +6,25 @@ as for the scene itself (`selection.select`), so that the map agrees with `expla
 """
 
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import energy_of
 from derivation.scene.effects import EFFECTS, PAPER
 from derivation.scene.errors import SceneError
+from derivation.scene.kernels import Numbers
 from derivation.scene.model import Model
 from derivation.scene.output.plot import saved
 from derivation.scene.quasi_static.motion import largest_radius
 from derivation.scene.result import Result
-from derivation.scene.selection.selection import Selection, select
+from derivation.scene.rows.selection import CLEAR, prepare
+from derivation.scene.selection.candidates import Candidates, candidates_of
+from derivation.scene.selection.selection import Rows, selections
 from generated.arrays import Double as Array
 
 if TYPE_CHECKING:
@@ -71,35 +76,65 @@ def drawn(result: Result) -> list[str]:
 
 def grid(result: Result, rtol: float) -> Grid:
     """Select the effects for all thicknesses and contact radii, at a tolerance [1]."""
-    model, wanted = _mapped(result), result.scene.effects.model_dump()
+    thicknesses, radii, known, points = _points(result)
+    place, wanted = np.flatnonzero(known), result.scene.effects.model_dump()
+    given = candidates_of(points.take(0), wanted)
+    prepare(given, points)
+    ratios = {name: np.full(known.shape, math.nan) for name in drawn(result)}
+    applicable = [name for name in ratios if not given.reasons[name]]
+    for rows, needed, sizes in _sizes(given, points, rtol, result.effects.outputs):
+        for name in applicable:
+            ratio = _ratio(sizes.get(name, math.inf), rtol, given.choice[name], name in needed)
+            ratios[name].flat[place[rows]] = ratio
+    return Grid(thicknesses, radii, ratios)
+
+
+def _points(result: Result) -> tuple[Array, Array, NDArray[np.bool_], Model]:
+    """Return thicknesses, radii, the points in the range of the law, and their quantities.
+
+    Points are those of all radii by all thicknesses; the quantities are columns.
+    """
+    model = _mapped(result)
     eta, wide = model.eta, result.max_contact_radius / model.h
     thicknesses = np.unique(np.append(THICKNESSES, eta))
     # The range includes the contact radius of the scene.
     low = min(RADII[0], wide / 2)
     radii = np.unique(np.append(np.geomspace(low, RADII[-1], RADII.size), wide))
-    names = drawn(result)
-    ratios = {name: np.full((radii.size, thicknesses.size), math.nan) for name in names}
-    with np.errstate(all="ignore"):
-        # By the paper's law the contact radius of the scene differs.
-        try:
-            stretch = largest_radius(_law(model)) / result.max_contact_radius
-        except SceneError:
-            stretch = math.nan
-        for column, ratio in enumerate(thicknesses):
-            plate = replace(model, h=model.h if ratio == eta else float(ratio) * model.b)
-            for row, width in enumerate(radii):
-                a = float(width) * plate.h
-                own = ratio == eta and width == wide
-                if not (own or a < min(model.b, model.R)):
-                    continue
-                speed = model.v0 if own else _speed(plate, stretch * a)
-                if not 0.0 < speed < math.inf:
-                    continue
-                case = replace(plate, v0=speed)
-                selection = select(case, wanted, rtol, result.effects.outputs)
-                for name in names:
-                    ratios[name][row, column] = _ratio(selection, name, rtol)
-    return Grid(thicknesses, radii, ratios)
+    # By the paper's law the contact radius of the scene differs.
+    try:
+        stretch = largest_radius(_law(model)) / result.max_contact_radius
+    except SceneError:
+        stretch = math.nan
+    half = np.where(thicknesses == eta, model.h, thicknesses * model.b)
+    a, own = np.outer(radii, half), np.outer(radii == wide, thicknesses == eta)
+    h = np.broadcast_to(half, a.shape)
+    speed = _speed(_many(model, h=h), stretch * a.reshape(-1, 1)).reshape(a.shape)
+    speed[own] = model.v0
+    known = (own | (a < min(model.b, model.R))) & (speed > 0.0) & np.isfinite(speed)
+    return thicknesses, radii, known, _many(model, h=h[known], v0=speed[known])
+
+
+def _many(model: Model, **numbers: Array) -> Model:
+    """Return a model with columns for some of its numbers."""
+    columns: Any = {name: values.reshape(-1, 1) for name, values in numbers.items()}
+    return replace(model, **columns)
+
+
+def _sizes(
+    given: Candidates, model: Model, rtol: float, outputs: Sequence[str], clear: float = CLEAR
+) -> Iterator[tuple[Rows, frozenset[str], dict[str, Array]]]:
+    """Yield points with the same needed effects, these effects, and the sizes of all effects.
+
+    Points at which the scene is rejected are left out.
+    """
+    tolerances = np.full(np.size(model.v0), rtol)
+    for branch, decided in selections(given, model, tolerances, outputs, clear=clear):
+        if decided is None:  # rounding could decide
+            for row in branch.rows.tolist():
+                for _, needed, sizes in _sizes(given, model.take(row), rtol, outputs, clear=1.0):
+                    yield np.array([row]), needed, sizes
+        elif not isinstance(decided, SceneError):
+            yield branch.rows, branch.included, decided.sizes(given, branch, outputs)
 
 
 def _mapped(result: Result) -> Model:
@@ -115,22 +150,21 @@ def _law(model: Model) -> ContactLaw:
     return ContactLaw(replace(model, gravity=0.0), PAPER)
 
 
-def _speed(model: Model, a: float) -> float:
-    """Return the speed [m/s] for a largest contact radius [m] by the paper's law; NaN if none."""
+def _speed(model: Model, a: Array) -> Array:
+    """Return the speeds [m/s] for largest contact radii [m] by the paper's law; NaN if none."""
     law = _law(model)
-    energy = energy_of(law, a) if a < law.limit else math.nan
-    return math.sqrt(2.0 * energy / model.m) if energy > 0.0 else math.nan
+    with np.errstate(all="ignore"):
+        energy = np.where(a < law.limit, energy_of(law, a), np.nan)
+        return np.sqrt(2.0 * np.where(energy > 0.0, energy, np.nan) / model.m)
 
 
-def _ratio(selection: Selection, name: str, rtol: float) -> float:
-    """Return the change by an effect over the tolerance, above 1 if the effect is needed."""
-    if selection.reasons[name]:
-        return math.nan
-    size = selection.sizes.get(name, math.inf)
-    ratio = min(size / rtol, MOST)
-    if selection.choice[name] is False:
+def _ratio(size: Numbers, rtol: float, choice: Any, needed: bool) -> Numbers:
+    """Return the changes by an effect over the tolerance, above 1 if the effect is needed."""
+    with np.errstate(over="ignore"):
+        ratio = np.fmin(size / rtol, MOST)  # of an unknown change, too
+    if choice is False:
         return ratio
-    return max(ratio, SIDE) if name in selection.needed else min(ratio, 1.0 / SIDE)
+    return np.maximum(ratio, SIDE) if needed else np.minimum(ratio, 1.0 / SIDE)
 
 
 def lines(map_grid: Grid) -> dict[tuple[str, ...], Array]:

@@ -37,6 +37,8 @@ _CLOSE = 1e-9
 _CLOSEST = 4e-16
 """Step of the size of rounding, for laws that need it: with non-Hertzian pressure (the slope is not
 exact), with weight, and on a half-space (the contact time is a unit of time)."""
+ROUGH = 1e-2
+"""Step at which a start for a law that takes longer to compute is sufficient."""
 _ROUNDED = 1e-12
 """Step below which the iteration ends if the step is not smaller than the one before."""
 MOST_PERCENT_DIGITS = 3
@@ -257,9 +259,14 @@ def _beyond(law: ContactLaw) -> SceneError:
 def _start(law: ContactLaw, goal: Array) -> Array:
     """Return an estimate of the largest radius [m] from the logarithm of E over K.
 
-    It is the smaller one of the radii by Hertz's law and by that of a thin plate.
+    It is the smaller one of the radii by Hertz's law and by that of a thin plate; with non-Hertzian
+    pressure, which takes long to compute, that with Hertz's pressure.
     """
     model = law.model
+    if law.solved:
+        hertzian = law.only(lambda effect: not effect.solved)
+        radii = largest_radii(hertzian, close=ROUGH)
+        return np.where(np.isnan(radii), _start(hertzian, goal), radii)
     log_radius = 0.2 * (goal + math.log(5.0))  # Hertz: the energy is K a^5/5
     if law.bends:
         # Bending: d delta/da is (3/2) a/(4 pi eta^2 h) times Hertz's; the energy is proportional to

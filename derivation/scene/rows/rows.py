@@ -42,7 +42,7 @@ from derivation.scene.rows.selection import Group, Rejected, selected
 from derivation.scene.rows.static_rows import impacts_of
 from derivation.scene.rows.warnings import warnings_of_rows
 from derivation.scene.scene import OUTPUTS, Scene, outputs_of, read
-from derivation.scene.selection.selection import check_enabled
+from derivation.scene.selection.candidates import check_enabled
 from derivation.scene.tensile_stress import static_errors, vibration
 from generated.arrays import Double as Array
 

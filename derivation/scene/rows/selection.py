@@ -1,14 +1,12 @@
 """Selection of effects for many scenes: the steps of `selection`, in groups of rows.
 
-All rows start with the same effects. In each step, the bounds of all rows with the same effects are
-computed together. Each row then includes the effect with its largest bound, and the rows are
-grouped again by their effects. For rows with almost equal numbers, one of them decides the first
-steps, as long as its bounds are far from the tolerance and from each other. The step that gives the
-error bound of the omitted effects is computed for each row.
+For rows with almost equal numbers, one of them decides the first steps, as long as its bounds are
+far from the tolerance and from each other. The step that gives the error bound of the omitted
+effects is computed for each row.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -21,14 +19,15 @@ from derivation.scene.effects.effect import Effect
 from derivation.scene.errors import SceneError
 from derivation.scene.model import Model
 from derivation.scene.rows.grouping import groups_of
-from derivation.scene.selection.omission_bounds import errors_of, sizes_of, state_of
-from derivation.scene.selection.selection import Candidates, candidates_of
+from derivation.scene.selection.candidates import Candidates, candidates_of
+from derivation.scene.selection.omission_bounds import errors_of, state_of
+from derivation.scene.selection.selection import Branch, selections
 from generated.arrays import Double as Array
 
-NEAR = 1e-9
-"""Relative distance from a tolerance at which the row is simulated singly."""
-TOGETHER = 2048
-"""Number of rows whose bounds are computed together, so that they fit into the cache."""
+CLEAR = 1.0 + 1e-9
+"""Factor between bound and tolerance, or two bounds, below which the row is simulated singly."""
+MOST = float(np.finfo(np.float64).max)
+"""Largest bound of a row that decides for others."""
 Rows = NDArray[np.intp]
 
 
@@ -92,31 +91,35 @@ def selected(
     """
     groups: list[Group | Rejected] = []
     for rows in _with_equal_effects(model, len(rtol)):
-        part = model.take(rows)
+        part, limits = model.take(rows), rtol[rows]
         try:
             given = candidates_of(part.take(0), wanted)
         except SceneError:
             continue
-        waiting = _certain_effects(given, part, rtol[rows], outputs)
-        if any(given.left(included) for included in waiting):
-            _cache(given, part)
-        while waiting:
-            included, parts = waiting.popitem()
-            indices = np.sort(np.concatenate(parts))
-            try:
-                given.check(ContactLaw(part.take(0), included))
-            except SceneError as error:
-                groups.append(Rejected(rows[indices], str(error)))
-                continue
-            group, others = _step(given, part, included, indices, rtol[rows], outputs)
-            if group is not None:
-                groups.append(replace(group, rows=rows[group.rows]))
-            for names, more in others.items():
-                waiting.setdefault(names, []).append(more)
+        begun = _certain_effects(given, part, limits, outputs)
+        if any(given.left(branch.included) for branch in begun):
+            prepare(given, part)
+        found: dict[frozenset[str], list[tuple[Rows, Array]]] = {}
+        omitted: dict[frozenset[str], tuple[Effect, ...]] = {}
+        for branch, decided in selections(
+            given, part, limits, outputs, clear=CLEAR, begun=begun, stops=_own_solution
+        ):
+            if isinstance(decided, SceneError):
+                groups.append(Rejected(rows[branch.rows], str(decided)))
+            elif decided is not None:
+                found.setdefault(branch.included, []).append((branch.rows, decided.error))
+                omitted[branch.included] = decided.omitted
+        for included, parts in found.items():
+            indices, error = (np.concatenate(values) for values in zip(*parts, strict=True))
+            order = np.argsort(indices)
+            law = ContactLaw(part.take(indices[order]), included)
+            groups.append(
+                Group(rows[indices[order]], law, _held(given), error[order], omitted[included])
+            )
     return groups
 
 
-def _cache(given: Candidates, model: Model) -> None:
+def prepare(given: Candidates, model: Model) -> None:
     """Compute the values that all bounds need, once for all parts of the model."""
     present = {effect.name for effect in given.present}
     if present & WHOLE_PLATE:
@@ -129,78 +132,28 @@ def _cache(given: Candidates, model: Model) -> None:
 
 def _certain_effects(
     given: Candidates, model: Model, rtol: Array, outputs: Sequence[str]
-) -> dict[frozenset[str], list[Rows]]:
+) -> list[Branch]:
     """Return the rows by the effects that they certainly include."""
     rows = np.arange(len(rtol))
     if given.whole:
-        return {PAPER: [rows]}
+        return [Branch(rows, PAPER, {})]
     groups = groups_of(model, len(rtol)) if rtol.min() == rtol.max() else None
     if groups is None:
-        return {given.included: [rows]}
-    first, group, clear = groups
-    one_of_each = model.take(first)
-    _cache(given, one_of_each)
-
-    def step(included: frozenset[str], here: Rows) -> dict[frozenset[str], Rows]:
-        return _certain(given, one_of_each, included, here, rtol, outputs, clear)
-
-    reached = np.empty(len(first), dtype=np.intp)
+        return [Branch(rows, given.included, {})]
+    one_of_each = model.take(groups.first)
+    prepare(given, one_of_each)
     sets: list[frozenset[str]] = []
-    waiting = {given.included: [np.arange(len(first))]}
-    while waiting:
-        included, parts = waiting.popitem()
-        here = np.concatenate(parts)
-        reached[here] = len(sets)
-        sets.append(included)
-        for names, more in step(included, here).items():
-            waiting.setdefault(names, []).append(more)
-    of_row = reached[group]
-    begun: dict[frozenset[str], list[Rows]] = {}
-    for number in np.unique(of_row).tolist():
-        begun.setdefault(sets[number], []).append(rows[of_row == number])
-    return begun
-
-
-def _certain(
-    given: Candidates,
-    model: Model,
-    included: frozenset[str],
-    rows: Rows,
-    rtol: Array,
-    outputs: Sequence[str],
-    clear: float,
-) -> dict[frozenset[str], Rows]:
-    """Return the rows that clearly continue, by the effects that they then include."""
-    law = ContactLaw(model.take(0), included)
-    open_ = given.left(included)
-    candidates = [effect for effect in open_ if effect.name not in given.blocked]
-    if not candidates or _own_solution(law):
-        return {}
-    try:
-        given.check(law)
-    except SceneError:
-        return {}
-    error, _, sizes = _evaluated(given, model, included, rows, rtol, outputs)
-    going_on = np.isfinite(error) & (error > clear * rtol[rows])
-    return _next(given, candidates, included, going_on, rows, sizes, 1.0 - 1.0 / clear)
-
-
-def _evaluated(
-    given: Candidates,
-    model: Model,
-    included: frozenset[str],
-    rows: Rows,
-    rtol: Array,
-    outputs: Sequence[str],
-) -> tuple[Array, Array, Array]:
-    """Return the results of `_errors` for all rows, with the sizes as columns."""
-    parts = [rows[start : start + TOGETHER] for start in range(0, len(rows), TOGETHER)]
-    laws = (ContactLaw(model.take(part), included) for part in parts)
-    groups = [
-        _errors(given, law, rtol[part], outputs) for law, part in zip(laws, parts, strict=True)
-    ]
-    error, fine, *sizes = (np.concatenate(column) for column in zip(*groups, strict=True))
-    return error, fine, np.column_stack(sizes) if sizes else np.empty((len(rows), 0))
+    reached = np.empty(len(groups.first), dtype=np.intp)
+    for branch, _ in selections(
+        given, one_of_each, rtol[groups.first], outputs,
+        clear=groups.clear, largest=MOST, stops=_own_solution,
+    ):  # fmt: skip
+        if branch.included not in sets:
+            sets.append(branch.included)
+        reached[branch.rows] = sets.index(branch.included)
+    of_row = reached[groups.group]
+    begun = (Branch(rows[of_row == i], included, {}) for i, included in enumerate(sets))
+    return [branch for branch in begun if len(branch.rows)]
 
 
 def _with_equal_effects(model: Model, count: int) -> list[Rows]:
@@ -218,82 +171,7 @@ def _own_solution(law: ContactLaw) -> bool:
     return law.viscous or law.plastic or law.dynamic
 
 
-def _step(
-    given: Candidates,
-    model: Model,
-    included: frozenset[str],
-    rows: Rows,
-    rtol: Array,
-    outputs: Sequence[str],
-) -> tuple[Group | None, dict[frozenset[str], Rows]]:
-    """Return the rows whose selection is complete, and the effect that each other row adds."""
-    if _own_solution(ContactLaw(model, included)):
-        return None, {}
-    open_ = given.left(included)
-    if not open_:
-        none = np.zeros(len(rows))
-        return Group(rows, ContactLaw(model.take(rows), included), _held(given), none, ()), {}
-    error, fine, sizes = _evaluated(given, model, included, rows, rtol, outputs)
-    limit = rtol[rows]
-    near = (np.abs(error - limit) <= NEAR * limit) & (limit > 0.0)
-    candidates = [effect for effect in open_ if effect.name not in given.blocked]
-    done = (error <= limit) if candidates else np.ones(len(rows), dtype=bool)
-    others = {}
-    if not done.all():
-        others = _next(given, candidates, included, ~done & ~near, rows, sizes, NEAR)
-    kept = done & ~near & (fine > 0.0)
-    if not kept.any():
-        return None, others
-    law = ContactLaw(model.take(rows[kept]), included)
-    return Group(rows[kept], law, _held(given), error[kept], tuple(open_)), others
-
-
-def _errors(
-    given: Candidates, law: ContactLaw, rtol: Array, outputs: Sequence[str]
-) -> tuple[Array, ...]:
-    """Return the error if all open effects are omitted, and whether blocked ones may be omitted.
-
-    The sizes of the other open effects follow; they are not computed if no row continues.
-    """
-    state, open_ = state_of(law), given.left(law.effects)
-    error, fine = errors_of(state, open_, outputs)[:, 0], np.ones(len(rtol))
-    for effect in open_:
-        if effect.name in given.blocked:  # `check_omitted` may reject such a row
-            fine *= errors_of(state, [effect], outputs)[:, 0] <= rtol
-    candidates = [effect for effect in open_ if effect.name not in given.blocked]
-    if len(candidates) < 2 or (error <= rtol).all():
-        return (error, fine, *len(candidates) * (error,))
-    return (error, fine, *(sizes_of(state, effect, outputs)[:, 0] for effect in candidates))
-
-
 def _held(given: Candidates) -> bool:
     """Return whether the stress is computed with the edge of the scene."""
     disabled = (e for e in given.present if given.choice[e.name] is False)
     return not any(effect.other_edge for effect in disabled)
-
-
-def _next(
-    given: Candidates,
-    candidates: Sequence[Effect],
-    included: frozenset[str],
-    going_on: NDArray[np.bool_],
-    rows: Rows,
-    sizes: Array,
-    apart: float,
-) -> dict[frozenset[str], Rows]:
-    """Return the rows that continue, by the effects that they then include.
-
-    The largest size of a row must exceed the second by the fraction `apart` of itself.
-    """
-    worst = np.argmax(sizes, axis=1)
-    if len(candidates) > 1:  # rounding might decide which is larger
-        second = np.partition(sizes, -2, axis=1)[:, -2:]
-        with np.errstate(invalid="ignore"):  # two infinite sizes are not distinguished
-            going_on = going_on & (second[:, 1] - second[:, 0] > apart * second[:, 1])
-    rows_by_effects: dict[frozenset[str], Rows] = {}
-    for number, effect in enumerate(candidates):
-        mine = rows[going_on & (worst == number)]
-        if len(mine):
-            names = included | {effect.name} | given.along[effect.name]
-            rows_by_effects[names] = np.concatenate((rows_by_effects.get(names, mine[:0]), mine))
-    return rows_by_effects

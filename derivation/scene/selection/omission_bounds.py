@@ -22,7 +22,7 @@ from derivation.scene.effects.effect import (
     LawSamples,
     Numbers,
     PlateEffect,
-    together,
+    bounded_where,
     weight_work_ratio,
 )
 from derivation.scene.effects.inertia import WIDER, least_restitution
@@ -41,8 +41,8 @@ from generated.arrays import Double as Array
 
 TOP = 1.02
 """Bounds cover radii up to this times the largest radius."""
-NEAR = 1e-6
-"""Relative accuracy of the largest radius that suffices for this."""
+NEAR = 1e-4
+"""Last step of the iteration for the largest radius, whose error is about the square of it."""
 FEW = 3
 """Number of nodes for laws with S = 1, whose bounds are largest at the largest radius."""
 MARGIN = 1.05
@@ -187,7 +187,7 @@ def state_of(law: ContactLaw, top: float = TOP) -> LargestContact:
             swelling = inner.slope / (inner.additive * np.cbrt(inner.force) ** 2)
             growth = growth * (1.0 + MARGIN * np.maximum(0.0, columns.most(1.0 / swelling) - 1.0))
     depth = a * (a / law.model.R) * shape.depth[..., -1:]
-    context = BoundContext(equal, columns.number(depth), partial(_samples, law, upper))
+    context = BoundContext(equal, columns.number(depth), partial(_samples, law, upper, shape))
     slope = columns.prepended(1.0, shape.additive)
     return LargestContact(
         law, columns.number(a), context, slope, MARGIN * fall, MARGIN * rise, growth
@@ -199,12 +199,16 @@ def _quasi_static(law: ContactLaw) -> ContactLaw:
     return law.only(lambda e: not (e.dynamic or e.damps or e.stretches))
 
 
-def _samples(law: ContactLaw, top: Array) -> LawSamples:
-    """Return force, indentation, stiffness and energy at the nodes and the largest radius."""
+def _samples(law: ContactLaw, top: Array, shape: Shape) -> LawSamples:
+    """Return force, indentation, stiffness and energy at the nodes and the largest radius.
+
+    `shape` is that of the law there, or at `FEW` nodes if it is the same at all radii.
+    """
     nodes = rule(NODES[0])
     with np.errstate(all="ignore"):
         radii = np.append(nodes.x, 1.0) * top
-        shape = law.at(radii)
+        if shape.force.shape != radii.shape:
+            shape = law.at(radii)
         power = (shape.force * shape.slope)[..., :-1]
         total_work = np.sum(nodes.weights * nodes.x**4 * power, axis=-1, keepdims=True)
         work = np.concatenate((mapped(stored(NODES[0]), power), total_work), axis=-1)
@@ -237,14 +241,10 @@ def _bound(state: LargestContact, effect: Effect, scale: Numbers | None) -> Boun
         still = state.quasi_static
         none = np.zeros_like(state.context.radii)
         bound = _bound(still, effect, scale)
-        known = not np.all(np.isnan(still.a)) and np.all(np.isfinite(bound.up))
-        return Bound(none, none, results=bound.results if known else 5 * (math.inf,))
+        known = ~np.isnan(still.a) & np.all(np.isfinite(bound.up), axis=-1, keepdims=True)
+        return Bound(none, none, results=bounded_where(known, bound.results))
     context, model = state.context.scaled(scale), state.law.model
-    if effect.takes_rows or context.radii.ndim == 1:
-        bound = effect.bound(model, context)
-    else:
-        rows = range(len(context.radii))
-        bound = together([effect.bound(model.take(i), context.row(i)) for i in rows])
+    bound = effect.bound(model, context)
     if effect.viscous and state.law.dynamic:
         most = columns.at_most_one(reduce(np.maximum, state.by_inertia))
         bound = bound._replace(results=on_vibrating_plate(bound.results, most))
@@ -351,15 +351,15 @@ def _each_change(state: LargestContact, bound: Bound) -> Array:
         return np.where(known & np.isfinite(change[0]) & ~np.isnan(errors), errors, np.inf)
 
 
-def _plastic_sensitivity(state: LargestContact) -> float:
+def _plastic_sensitivity(state: LargestContact) -> Numbers:
     """Return a bound on d log(restitution)/d log(force) of a plastic contact.
 
     The plastic work grows at most with the square of the force; e^2 is the fraction of the energy
     that remains.
     """
     [effect] = [effect for effect in state.law.chosen if effect.plastic]
-    restitution = math.exp(-bound_of(state, effect).results[-1])
-    return 1.0 / max(restitution, 1e-3) ** 2
+    restitution = np.maximum(np.exp(-bound_of(state, effect).results[-1]), 1e-3)
+    return 1.0 / (restitution * restitution)
 
 
 def size_of(state: LargestContact, effect: Effect, outputs: Sequence[str]) -> float:

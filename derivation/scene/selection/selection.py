@@ -6,19 +6,33 @@ effect changes S_1 and the largest radius, so that the bounds are evaluated agai
 order does not depend on the tolerance; a larger tolerance therefore never includes more effects.
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from functools import partial
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from derivation.scene.contact_law.law import ContactLaw
-from derivation.scene.effects import EFFECTS, PAPER
+from derivation.scene.effects import PAPER
 from derivation.scene.effects.effect import Effect
 from derivation.scene.errors import SceneError
-from derivation.scene.input.table import in_words
 from derivation.scene.model import Model
-from derivation.scene.scene import OUTPUTS, Scene
-from derivation.scene.selection.omission_bounds import LargestContact, error_of, size_of, state_of
+from derivation.scene.scene import OUTPUTS
+from derivation.scene.selection.candidates import Candidates, candidates_of
+from derivation.scene.selection.omission_bounds import (
+    LargestContact,
+    errors_of,
+    sizes_of,
+    state_of,
+)
+from generated.arrays import Double as Array
+
+TOGETHER = 2048
+"""Number of scenes whose bounds are computed together, so that they fit into the cache."""
+Rows = NDArray[np.intp]
 
 
 @dataclass(frozen=True)
@@ -67,117 +81,74 @@ class Selection:
 
 
 @dataclass(frozen=True)
-class Candidates:
-    """The effects of a scene before the selection.
+class Branch:
+    """Scenes that include the same effects, added in the same order.
 
     Attributes
     ----------
-    model
-        The quantities of the scene.
-    present
-        The effects that apply and may be included.
-    along
-        For each effect, the names of the effects that are included with it.
+    rows
+        Indices of the scenes.
     included, required
-        Names of the effects that are included from the start; and for those that are included only
-        with another effect, the name of that one.
-    open_
-        The effects that the selection decides on.
-    choice, reasons, blocked
-        As in `Selection`.
-    whole
-        Whether the scene allows just the effects of the paper's law. All are included, because
-        the function of this law is faster than a selection.
+        As in `Candidates`.
+    sizes
+        Bounds on the change if an effect is omitted, of each scene, by name; of an included effect
+        when it was included [1].
     """
 
-    model: Model
-    present: tuple[Effect, ...]
-    along: Mapping[str, frozenset[str]]
+    rows: Rows
     included: frozenset[str]
     required: Mapping[str, str]
-    open_: tuple[Effect, ...]
-    choice: Mapping[str, Any]
-    reasons: Mapping[str, str]
-    blocked: Mapping[str, str]
-    whole: bool
+    sizes: Mapping[str, Array] = field(default_factory=dict)
 
-    def left(self, included: frozenset[str]) -> list[Effect]:
-        """Return the effects that the selection decides on and that are not yet included."""
-        return [effect for effect in self.open_ if effect.name not in included]
+    def take(self, index: Any) -> "Branch":
+        """Return some of the scenes by their indices among these."""
+        sizes = {name: size[index] for name, size in self.sizes.items()}
+        return replace(self, rows=self.rows[index], sizes=sizes)
 
-    def check(self, law: ContactLaw) -> None:
-        """Raise an error if a key that an included effect needs is missing."""
-        for effect in law.chosen:
-            effect.check(law, self.choice[effect.name] is True)
+    def adding(self, effect: Effect, given: Candidates) -> "Branch":
+        """Return the scenes with an effect and those that are included with it."""
+        along = given.along[effect.name]
+        required = {**self.required, **dict.fromkeys(along - self.included, effect.name)}
+        return replace(self, included=self.included | {effect.name} | along, required=required)
 
 
-def check_enabled(scene: Scene, model: Model) -> None:
-    """Reject a scene that enables an effect without the key that this effect needs.
+@dataclass(frozen=True)
+class Decided:
+    """The selection of some scenes.
 
-    Raises
-    ------
-    SceneError
-        With all such effects; a key with a value that changes nothing, such as 0, is accepted.
-    """
-    wanted = scene.effects.model_dump()
-    without_key = [
-        effect
-        for effect in EFFECTS
-        if effect.selectable
-        and wanted.get(effect.name) is True
-        and effect.not_applicable_reason(model)
-        and not effect.without_change(scene)
-    ]
-    if without_key:
-        raise SceneError(in_words([partial(_without_key, effect, model) for effect in without_key]))
-
-
-def _without_key(effect: Effect, model: Model) -> str:
-    """Return the message that an enabled effect does not apply, with its remedy."""
-    return (
-        f"effects.{effect.name} = true does not apply: {effect.not_applicable_reason(model)}; "
-        f"{effect.remedy}, or remove effects.{effect.name}"
-    )
-
-
-def candidates_of(model: Model, wanted: Mapping[str, Any]) -> Candidates:
-    """Return the effects that the selection may include.
-
-    Parameters
+    Attributes
     ----------
-    model
-        The quantities of the scene.
-    wanted
-        "auto", True or False by effect; "auto" if missing.
-
-    Raises
-    ------
-    SceneError
-        If the scene enables an effect and disables an effect that it requires.
+    law
+        Law with the included effects of these scenes, perhaps among others.
+    omitted, error
+        The effects that the selection omitted, and the bound on the change by all of them [1].
+    places
+        Indices of the scenes among those of the law.
     """
-    without = {e.name: f"effects.{e.within} = false" for e in EFFECTS if _disabled(e, wanted)}
-    requested = {e.name for e in EFFECTS if not e.selectable and wanted.get(e.name) is True}
-    reasons = {
-        e.name: "" if e.name in requested else e.not_applicable_reason(model) for e in EFFECTS
-    }
-    reasons = {name: reason or without.get(name, "") for name, reason in reasons.items()}
-    blocked = _blocked(wanted)
-    present = [effect for effect in EFFECTS if not reasons[effect.name]]
-    choice = {effect.name: wanted.get(effect.name, "auto") for effect in present}
-    present = [effect for effect in present if effect.selectable]
-    free = {effect.name for effect in present if choice[effect.name] is not False}
-    # Effects included with another one take no extra time; bounds assume Hertz's pressure.
-    along = {effect.name: effect.contains & free for effect in EFFECTS}
-    included = {e.name for e in present if e.always_included or choice[e.name] is True}
-    required: dict[str, str] = {}
-    for name in sorted(included):
-        required |= dict.fromkeys(along[name] - included, name)
-        included |= along[name]
-    open_ = [e for e in present if e.name not in included and choice[e.name] is not False]
-    return Candidates(
-        model, tuple(present), along, frozenset(included), required, tuple(open_), choice, reasons,
-        blocked, whole=free | included == PAPER,
-    )  # fmt: skip
+
+    law: ContactLaw
+    omitted: tuple[Effect, ...]
+    error: Array
+    places: Rows
+
+    @cached_property
+    def state(self) -> LargestContact:
+        """The largest contacts by the law."""
+        return state_of(self.law)
+
+    @cached_property
+    def by_paper(self) -> LargestContact:
+        """The largest contacts by the paper's law."""
+        return state_of(replace(self.law, effects=PAPER))
+
+    def sizes(self, given: Candidates, branch: Branch, outputs: Sequence[str]) -> dict[str, Array]:
+        """Return the sizes of all effects of these scenes, as in `Selection`."""
+        sizes = dict(branch.sizes)
+        for effect in given.present:
+            if effect.name not in branch.included:
+                state = self.by_paper if given.whole and effect.name not in PAPER else self.state
+                sizes[effect.name] = errors_of(state, [effect], outputs).ravel()[self.places]
+        return sizes
 
 
 def select(
@@ -201,65 +172,139 @@ def select(
         omit; or if a key that an included effect needs is missing.
     """
     given = candidates_of(model, wanted)
-    included, required, blocked = given.included, dict(given.required), given.blocked
-    sizes: dict[str, float] = {}
-    while True:
-        open_, law = given.left(included), ContactLaw(given.model, included)
-        given.check(law)  # first, because the largest contact may take much longer
-        state = state_of(law)
-        error = error_of(state, open_, outputs)
-        candidates = [effect for effect in open_ if effect.name not in blocked]
-        # With plate inertia, half of the tolerance is left to omitted modes and branches.
-        if error <= (0.5 * rtol if state.law.dynamic else rtol) or not candidates:
-            break
-        sizes |= {effect.name: size_of(state, effect, outputs) for effect in candidates}
-        worst = max(candidates, key=lambda effect: sizes[effect.name])
-        required |= dict.fromkeys(given.along[worst.name] - included, worst.name)
-        included |= {worst.name} | given.along[worst.name]
-    for effect in open_:
-        if effect.name in blocked:
-            part = blocked[effect.name]
-            effect.check_omitted(part, error_of(state, [effect], outputs), rtol)
-    sizes |= _sizes_of_others(given, state, outputs)
-    if given.whole:
-        state, open_, error = state_of(ContactLaw(given.model, PAPER)), [], 0.0
-        sizes |= _sizes_of_others(given, state, outputs)
+    [(branch, decided)] = selections(given, model, np.array([rtol]), outputs)
+    if isinstance(decided, SceneError):
+        raise decided
+    assert decided is not None  # any difference between two bounds decides
+    sizes = decided.sizes(given, branch, outputs)
     return Selection(
-        state, tuple(open_), error, sizes, given.choice, given.reasons, required, blocked, included
-    )
+        decided.by_paper if given.whole else decided.state,
+        () if given.whole else decided.omitted,
+        0.0 if given.whole else decided.error.item(),
+        {name: size.item() for name, size in sizes.items()},
+        given.choice, given.reasons, branch.required, given.blocked, branch.included,
+    )  # fmt: skip
 
 
-def _sizes_of_others(
-    given: Candidates, state: LargestContact, outputs: Sequence[str]
-) -> dict[str, float]:
-    """Return the bounds on the change if effects that are not included are omitted, by name [1]."""
-    others = (effect for effect in given.present if effect.name not in state.law.effects)
-    return {effect.name: error_of(state, [effect], outputs) for effect in others}
+def selections(
+    given: Candidates,
+    model: Model,
+    rtol: Array,
+    outputs: Sequence[str],
+    *,
+    clear: float = 1.0,
+    largest: float = math.inf,
+    begun: Sequence[Branch] = (),
+    stops: Callable[[ContactLaw], bool] = lambda _: False,
+) -> Iterator[tuple[Branch, Decided | SceneError | None]]:
+    """Select the effects of one scene, or of many to all of which the same effects apply.
 
+    Parameters
+    ----------
+    given
+        The effects before the selection.
+    model
+        Quantities of the scene, or of the scenes as columns.
+    rtol
+        Tolerance of each scene [1].
+    outputs
+        The results that the tolerance applies to.
+    clear
+        Least factor between a bound and the tolerance, and between two bounds, that decides.
+    largest
+        Largest bound with which effects are added [1].
+    begun
+        Scenes with effects that are certainly included; by default all, with those of `given`.
+    stops
+        Condition of a law to which no effect is added.
 
-def _disabled(effect: Effect, wanted: Mapping[str, Any]) -> bool:
-    """Return whether the scene disables the effect that this one is a part of."""
-    parted = bool(effect.within) and wanted.get(effect.within) is False
-    return parted and wanted.get(effect.name) is not True
-
-
-def _blocked(wanted: Mapping[str, Any]) -> Mapping[str, str]:
-    """Return the effects that cannot be included, each with the disabled effect it requires.
-
-    Raises
+    Yields
     ------
-    SceneError
-        If the scene enables one of them.
+    tuple
+        Scenes with the same effects, added in the same order. Then their selection, or the error by
+        which they are rejected, or None if they are not decided.
     """
-    reasons = dict[str, str]()
-    for effect in EFFECTS:
-        name = effect.name
-        without = sorted(part for part in effect.requires if wanted.get(part) is False)
-        if without and wanted.get(name) is True:
-            raise SceneError(
-                f"effects.{name} = true requires effects.{without[0]}, got effects.{without[0]} = "
-                f"false; remove effects.{without[0]} or effects.{name}"
-            )
-        if without:
-            reasons[name] = without[0]
-    return reasons
+    waiting = list(begun) or [Branch(np.arange(len(rtol)), given.included, given.required)]
+    while waiting:
+        branch = waiting.pop()
+        if (count := len(branch.rows)) > TOGETHER:
+            waiting += [branch.take(slice(i, i + TOGETHER)) for i in range(0, count, TOGETHER)]
+            continue
+        part = model if count == len(rtol) else model.take(branch.rows)
+        law, open_ = ContactLaw(part, branch.included), given.left(branch.included)
+        try:  # before the largest contact, which may take much longer
+            given.check(replace(law, model=part.take(0)))
+        except SceneError as error:
+            yield branch, error
+            continue
+        if stops(law):
+            yield branch, None
+            continue
+        if not open_:
+            yield branch, Decided(law, (), np.zeros(count), np.arange(count))
+            continue
+        state, limit = state_of(law), rtol[branch.rows]
+        bound = errors_of(state, open_, outputs).ravel()
+        # With plate inertia, half of the tolerance is left to omitted modes and branches.
+        goal = 0.5 * limit if law.dynamic else limit
+        candidates = [effect for effect in open_ if effect.name not in given.blocked]
+        done = (clear * bound <= goal) | (not candidates)
+        going_on = ~done & (bound > clear * goal) & (bound <= largest)
+        if going_on.any():
+            sizes = {e.name: sizes_of(state, e, outputs).ravel() for e in candidates}
+            worst = np.where(going_on, _largest([*sizes.values()], clear), -1)
+            branch, going_on = replace(branch, sizes={**branch.sizes, **sizes}), worst >= 0
+            for number in np.unique(worst[going_on]).tolist():
+                waiting.append(branch.take(worst == number).adding(candidates[number], given))
+        lost = ~(done | going_on)
+        if done.any():
+            for row, refusal in _refusals(given, state, outputs, limit, clear).items():
+                if done[row] and refusal is not None:
+                    yield branch.take([row]), refusal
+                lost[row] |= done[row] and refusal is None
+                done[row] = False
+        if done.any():
+            which = np.flatnonzero(done)
+            decided = Decided(law, tuple(open_), bound[which], which)
+            vars(decided)["state"] = state  # known already
+            yield branch.take(which), decided
+        if lost.any():
+            yield branch.take(lost), None
+
+
+def _largest(sizes: Sequence[Array], clear: float) -> Rows:
+    """Return the number of the first largest size of each scene; -1 if rounding may decide.
+
+    Sizes that are infinite or unknown are so whatever the rounding.
+    """
+    largest, *others = sizes
+    worst: Rows = np.zeros(len(largest), dtype=np.intp)
+    second = np.full(len(largest), -np.inf)
+    for number, size in enumerate(others, 1):
+        larger = size > largest
+        second = np.fmax(second, np.where(larger, largest, size))
+        worst, largest = np.where(larger, number, worst), np.where(larger, size, largest)
+    known = np.isfinite(second) & np.isfinite(largest)
+    close = known & (clear > 1.0) & (clear * second >= largest)
+    return np.where(close, -1, worst)
+
+
+def _refusals(
+    given: Candidates, state: LargestContact, outputs: Sequence[str], rtol: Array, clear: float
+) -> dict[int, SceneError | None]:
+    """Return the scenes that must not omit an effect, each with the error; None if not clear."""
+    refusals: dict[int, SceneError | None] = {}
+    for effect in given.left(state.law.effects):
+        if effect.name not in given.blocked:
+            continue
+        bound = errors_of(state, [effect], outputs).ravel()
+        for row in np.flatnonzero(clear * bound > rtol).tolist():
+            try:
+                effect.check_omitted(
+                    given.blocked[effect.name], bound[row].item(), rtol[row].item()
+                )
+            except SceneError as error:
+                refusals.setdefault(row, error)
+            if not bound[row] > clear * rtol[row]:
+                refusals[row] = None
+    return refusals

@@ -59,7 +59,7 @@ def solution(law: "ContactLaw", a: Array, own_edge: bool = True) -> SolvedShape:
     rows: dict[tuple[SolvedCase, float], list[int]] = {}
     for row, known in enumerate(zip(cases(law, own_edge), limits, strict=False)):
         rows.setdefault(known, []).append(row)
-    if not np.ndim(model.R):
+    if len(rows) == 1:
         [known] = rows
         return shape_at(a, *known)
     numbers = np.empty((len(SolvedShape._fields), *a.shape))
@@ -70,18 +70,23 @@ def solution(law: "ContactLaw", a: Array, own_edge: bool = True) -> SolvedShape:
 
 def limit(law: "ContactLaw", widest: Any) -> Any:
     """Return the largest radius [m], at most `widest`, of contacts closed at the centre."""
-    tops = np.broadcast_to(widest, np.shape(law.model.R)).ravel().tolist()
-    return _column(law, [*map(closed_up_to, cases(law), tops)])
+    each = cases(law)
+    tops = np.broadcast_to(np.ravel(widest), len(each)).tolist()
+    return _column(law, [*map(closed_up_to, each, tops)])
 
 
 def cases(law: "ContactLaw", own_edge: bool = True) -> list[SolvedCase]:
     """Return the quantities that determine the contact, of each scene."""
-    m, edge = law.model, law.edge_curvature if own_edge else 0.0
-    numbers = np.broadcast_arrays(m.h, m.b, m.R, law.modulus, m.modulus, edge)
-    columns = (values.ravel().tolist() for values in numbers)
+    columns = [np.ravel(values).tolist() for values in _numbers(law, own_edge)]
     return [SolvedCase._make((*row, law.spherical)) for row in zip(*columns, strict=True)]
 
 
+def _numbers(law: "ContactLaw", own_edge: bool = True) -> tuple[Array, ...]:
+    """Return the numbers of the cases: as columns, unless all are those of one case."""
+    m, edge = law.model, law.edge_curvature if own_edge else 0.0
+    return np.broadcast_arrays(m.h, m.b, m.R, law.modulus, m.modulus, edge)
+
+
 def _column(law: "ContactLaw", values: list[float]) -> Any:
-    """Return the values of all scenes as a column, or the value of one scene."""
-    return np.array(values)[:, None] if np.ndim(law.model.R) else values[0]
+    """Return the values of all cases as a column, or that of one case."""
+    return np.array(values)[:, None] if _numbers(law)[0].ndim else values[0]

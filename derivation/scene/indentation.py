@@ -18,9 +18,10 @@ import numpy as np
 
 from derivation.engine.text import aligned, paragraph
 from derivation.scene.contact_law.corrections import stretching
-from derivation.scene.contact_law.edge_curvature import edge_curvature_errors
+from derivation.scene.contact_law.edge_curvature import CurvatureErrors, edge_curvature_errors
 from derivation.scene.contact_law.edge_remainder import edge_warnings, largest_neighbours
 from derivation.scene.contact_law.finite_sphere import finite_sphere_error
+from derivation.scene.contact_law.flatter_plate import flatter_plate
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import (
     check_numbers,
@@ -30,7 +31,6 @@ from derivation.scene.contact_law.limits import (
     warnings_at,
 )
 from derivation.scene.contact_law.yield_warnings import static_warnings
-from derivation.scene.dynamic.model_error import curvature_error
 from derivation.scene.dynamic.static_stretching import counts, more_shapes
 from derivation.scene.dynamic.stretching_error import ROTATION
 from derivation.scene.effects import EFFECTS
@@ -54,6 +54,12 @@ from derivation.scene.static_contact import (
 STIFFNESS = 4.0 / 3.0
 """Relative change of the stiffness over that of the force, at equal indentation, if the relative
 change of the indentation at equal force is proportional to a/R."""
+CURVATURE, WEIGHTS = 0.05, 0.5
+"""Relative error of the change of curvature of a plate that stretches, and of the indentation by it
+that the weights of the modes omit.
+
+In three-dimensional finite elements the change differed by less than 0.03 for contact radii of 0.3
+to 1.6 thicknesses, and the indentation by less than 0.4, for three edges."""
 HEADS = (
     "#radius [m]", "#indentation [m]", "#force [N]", "#stiffness [N/m]", "#max. pressure [Pa]",
 )  # fmt: skip
@@ -291,9 +297,7 @@ def _contact(law: ContactLaw, name: str, value: float) -> StaticContact:
     else:
         law = linear
     check_radius(law, at.radius, key, remedy)
-    # At equal force the curvature of the plate changes the radius, and P grows with its cube.
-    pressure = law.max_pressure(at.elastic_radius * at.wider) / at.wider**3
-    pressure = min(pressure, law.pressure_limit)
+    pressure = min(_pressure(law, at), law.pressure_limit)
     check_numbers(model, at.radius, at.force, at.depth, at.stiffness, pressure)
     # The given value is returned unchanged, without the rounding errors of the inversion.
     values = {"contact_radius": at.radius, "indentation": at.depth, "force": at.force} | {
@@ -328,15 +332,22 @@ def _deflection(law: ContactLaw, at: Loaded) -> float:
     return at.depth - float(local_indentation(law, at.radius))
 
 
+def _pressure(law: ContactLaw, at: Loaded) -> float:
+    """Return the elastic pressure at the centre [Pa]."""
+    if at.flatter is None:
+        return law.max_pressure(at.elastic_radius)
+    return at.flatter.factor * law.max_pressure(at.flatter.radius * at.elastic_radius)
+
+
 def _model_errors(law: ContactLaw, at: Loaded) -> dict[str, float]:
     """Return the largest relative model errors [1]: of all quantities, and without the pressure.
 
     Edge, neglected stretching, curvature, the finite size of the sphere and motion of the faces
     change the indentation at a given force; the force at a given indentation changes by a power of
     that. On a plate that stretches, large rotations change the force at a given deflection, and the
-    omitted shapes the force of stretching; the error of the contact radius changes the local
-    indentation. Like the stiffening S, these changes grow with the square of the deflection, so
-    that the derivative of the force with respect to it changes by three times as much.
+    omitted shapes the force of stretching. Like the stiffening S, these changes grow with the
+    square of the deflection, so that the derivative of the force with respect to it changes by
+    three times as much.
     """
     model, curvature, change = law.model, edge_curvature_errors(law, at.radius), at.change
     changes, rotation, pressure = curvature.results, 0.0, curvature.pressure
@@ -345,14 +356,37 @@ def _model_errors(law: ContactLaw, at: Loaded) -> dict[str, float]:
     else:
         changes += 3.0 * change.error / at.depth
         rotation = 3.0 * ROTATION * change.steepness
-        narrower = curvature_error(change.radius - 1.0)
-        pressure += narrower
-        # The local indentation grows with the square of the radius.
-        local = float(local_indentation(law, at.elastic_radius))
-        changes += 3.0 * 2.0 * narrower * local / at.depth
+        by_curvature = _curvature_errors(law, at)
+        changes += by_curvature.results
+        pressure += by_curvature.pressure
     changes += STIFFNESS * float(finite_sphere_error(law, at.radius, at.depth))
     if law.other_edge:
         [edge] = largest_neighbours(model, np.array([at.radius]), model.eta)
         changes += float(edge) if np.isfinite(edge) else math.inf
     error = max(1.0, at.stiffness * at.depth / at.force) * changes + rotation
     return {"model_error": error + pressure, "force_error": error}
+
+
+def _curvature_errors(law: ContactLaw, at: Loaded) -> CurvatureErrors:
+    """Return the errors of a plate that stretches by its curvature under the sphere.
+
+    They follow from a plate that is a little less flat. The indentation by the flatter plate also
+    has an error itself, because the modes have the weights of a flat punch on a half-space.
+    """
+    change, flatter = at.change, at.flatter
+    assert change is not None
+    assert flatter is not None
+    part = 1.0 - CURVATURE - abs(change.flatter_error / change.flatter if change.flatter else 0.0)
+    other = flatter_plate(
+        law, at.elastic_radius, part * change.flatter, part * change.flatter_rate, change.of_modes
+    )
+    less = at._replace(flatter=other)
+    depth = abs(other.depth - flatter.depth) + WEIGHTS * abs(flatter.depth)
+    slower = abs(other.compliance - flatter.compliance) + WEIGHTS * abs(flatter.compliance)
+    return CurvatureErrors(
+        max(depth, slower * at.force) / at.depth,
+        max(
+            abs(other.radius / flatter.radius - 1.0),
+            abs(_pressure(law, less) / _pressure(law, at) - 1.0),
+        ),
+    )

@@ -17,14 +17,55 @@ from scipy import sparse
 from scipy.optimize import minimize_scalar
 from scipy.sparse.linalg import splu
 
-from derivation.checks.finite_elements.mesh import Double, Grading, Mesh, graded_mesh
+from derivation.checks.finite_elements.mesh import Double, Mesh, _growing_intervals
 from derivation.checks.finite_elements.plate import Plate, System, _lagrange, _Reference
 from derivation.plate.edge.remainder import lobatto
 
 ITERATIONS, CLOSE = 40, 1e-9
 """Largest number of Newton's iterations; relative residual that ends them."""
+REACH = 1.6
+"""Radius of the nodes that may touch the sphere over the expected contact radius."""
 TERMS, FINE = 4, 24
 """Number of terms of the pressure over the radius; Gauss points per element of the contact face."""
+
+
+class Fineness(NamedTuple):
+    """Mesh density.
+
+    Attributes
+    ----------
+    contact
+        Number of elements over the contact radius.
+    halved
+        How often elements are halved towards the end of the contact, from both sides.
+    far
+        Largest radial element size over the thickness.
+    degree
+        Polynomial degree.
+    edge
+        How often the element at the edge is halved.
+    """
+
+    contact: int = 8
+    halved: int = 3
+    far: float = 2.0
+    degree: int = 4
+    edge: int = 3
+
+
+def edge_mesh(b: float, thickness: float, radius: float, fine: Fineness) -> Mesh:
+    """Return a mesh of a plate of radius b [m] whose elements are smallest at a radius [m]."""
+    size = radius / fine.contact
+    inner = np.linspace(0.0, radius, fine.contact + 1)
+    more = radius - size * 0.5 ** np.arange(1, fine.halved + 1)
+    smallest = size * 0.5**fine.halved
+    outer = _growing_intervals(smallest, b - radius, 2.0, fine.far * thickness, fine.edge)
+    depth = _growing_intervals(2.0 * smallest, thickness, 2.0, 0.5 * thickness, 0)
+    r_ends = np.concatenate((inner[:-1], more, radius + outer))
+    z_ends = thickness / 2 - depth[::-1]
+    r_ends[-1], z_ends[0], z_ends[-1] = b, -thickness / 2, thickness / 2
+    reach = float(r_ends[r_ends <= REACH * radius][-1])
+    return Mesh(r_ends, z_ends, fine.degree, reach)
 
 
 class Pressed(NamedTuple):
@@ -81,10 +122,10 @@ class PressedPlate:
 
     @classmethod
     def of(
-        cls, plate: Plate, R: float, reach: float, grading: Grading, mean: bool = False
+        cls, plate: Plate, R: float, radius: float, fine: Fineness, mean: bool = False
     ) -> "PressedPlate":
-        """Return a plate whose mesh is fine up to a reach [m]."""
-        mesh = graded_mesh(plate.radius, plate.thickness, reach, grading)
+        """Return a plate whose mesh is fine under an expected contact radius [m] and at its end."""
+        mesh = edge_mesh(plate.radius, plate.thickness, radius, fine)
         return cls(System(plate, mesh), R, mean and plate.edge != "clamped")
 
     @property

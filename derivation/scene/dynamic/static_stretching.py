@@ -24,6 +24,7 @@ from derivation.scene.dynamic.middle_plane import MiddlePlane
 from derivation.scene.dynamic.modal import ModalPlate, plate_of
 from derivation.scene.dynamic.stretched_shapes import LEFT, with_shapes
 from derivation.scene.errors import SceneError
+from derivation.scene.input.materials import engineering_constants
 from generated.arrays import Double as Array
 from generated.effect_kernels import hertz_force
 from generated.pressure_kernels import force_of_waves
@@ -60,6 +61,8 @@ class Change(NamedTuple):
         Contact radius for the weights of the modes [m].
     steepness
         Mean square of the slope, weighted with the energy of stretching [1].
+    thinner
+        Decrease of half the thickness on the axis by the tension of the middle plane [m].
     error, flatter_error
         Estimated errors of `depth` [m] and `flatter` [1] by the shapes that do not stretch the
         plate.
@@ -71,6 +74,7 @@ class Change(NamedTuple):
     flatter_rate: float
     of_modes: float
     steepness: float
+    thinner: float
     error: float = 0.0
     flatter_error: float = 0.0
 
@@ -90,6 +94,8 @@ class StretchedPlate:
     depth, force
         Thickness of the plate [m], and force that would deflect it by as much without stretching
         [N].
+    youngs_modulus, poissons_ratio
+        Elastic constants [Pa, 1].
     """
 
     contact: ContactTables
@@ -97,6 +103,8 @@ class StretchedPlate:
     compliance: Array
     depth: float
     force: float
+    youngs_modulus: float
+    poissons_ratio: float
 
     @classmethod
     def of(cls, law: ContactLaw, shapes: int) -> Self:
@@ -110,14 +118,15 @@ class StretchedPlate:
         force = depth / float(np.sum(compliance))
         plane = MiddlePlane.of(law.model, modes, depth, force)
         tables = contact_of(rest, ModalPlate(modes, modes, None), top, pointwise=False)
-        return cls(tables, plane, compliance * (force / depth), depth, force)
+        constants = engineering_constants(model.lam, model.mu)
+        return cls(tables, plane, compliance * (force / depth), depth, force, *constants)
 
     def change(self, force: float, a: float) -> Change:
         """Return the changes at a force [N], whose contact radius without stretching is a [m]."""
         a = self._radius(force, a)
         at = self.contact.at(np.array([a]))
         if not at.force_a[0] > 0.0:  # beyond the tables, or by underflow
-            return Change(*6 * (math.nan,))
+            return Change(*7 * (math.nan,))
         load, weights = at.modal_forces[0] / self.force, 1.0 + at.weights_less_one[0]
         linear = self.compliance * load
         q, system = self._deflections(load)
@@ -131,6 +140,7 @@ class StretchedPlate:
             self._flatter(a, self.depth * float(at.less_a[0] @ faster)) / self.force,
             a,
             (fourth / second if second else 0.0) * (self.depth / self.contact.modes.b) ** 2,
+            float(self.poissons_ratio / self.youngs_modulus * self.plane.axis_tension(q)),
         )
 
     def _flatter(self, a: float, curved: float) -> float:

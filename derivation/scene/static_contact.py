@@ -63,7 +63,7 @@ def loaded(law: ContactLaw, a: float) -> Loaded:
         stiffness = force_a / depth_a
     flatter = None
     if change is not None:
-        flatter = flatter_plate(law, a, change.flatter, change.flatter_rate, change.of_modes)
+        flatter = flatter_plate(law, a, change.flattening)
         depth = depth + change.depth + flatter.depth
         depth_a = depth_a + (change.compliance + flatter.compliance) * force_a
         radius, radius_a = flatter.radius * radius, math.nan * radius

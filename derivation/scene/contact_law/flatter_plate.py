@@ -12,11 +12,37 @@ import numpy as np
 
 from derivation.scene import kernels
 from derivation.scene.contact_law.law import ContactLaw
+from generated.arrays import Double as Array
 
 STEPS, CLOSE, LONGEST = 40, 1e-13, 0.5
 """Largest number of Newton's steps; relative step that ends the iteration; longest one."""
 SMALLEST = 0.5
 """Smallest contact radius over that of the law at the same force."""
+
+
+class Flattening(NamedTuple):
+    """Change of the curvature of a plate under the sphere, at a given force.
+
+    Attributes
+    ----------
+    change
+        Relative change of the force at a given contact radius [1].
+    rate
+        Its derivative with respect to the force [1/N].
+    radius
+        Contact radius for the weights of the modes of the plate [m].
+    radius_rate
+        Its derivative with respect to the force [m/N].
+    """
+
+    change: float
+    rate: float
+    radius: float
+    radius_rate: float
+
+    def times(self, part: float) -> "Flattening":
+        """Return a part of this change."""
+        return self._replace(change=part * self.change, rate=part * self.rate)
 
 
 class FlatterPlate(NamedTuple):
@@ -40,21 +66,10 @@ class FlatterPlate(NamedTuple):
     compliance: float
 
 
-def flatter_plate(
-    law: ContactLaw, a: float, change: float, rate: float, of_modes: float
-) -> FlatterPlate:
+def flatter_plate(law: ContactLaw, a: float, flattening: Flattening) -> FlatterPlate:
     """Return the contact whose radius in the law is a [m].
 
-    Parameters
-    ----------
-    law
-        The law. With Hertz pressure nothing changes.
-    change
-        Relative change of the force at a given contact radius [1].
-    rate
-        Its derivative with respect to the force [1/N].
-    of_modes
-        Contact radius for the weights of the modes [m].
+    With Hertz pressure the contact does not depend on the curvature of the plate.
 
     Notes
     -----
@@ -64,30 +79,34 @@ def flatter_plate(
     of first order, but with the weights of a flat punch on a half-space: e times D - P/k of Hertz's
     law.
     """
-    factor = 1.0 + change
     if not law.solved:
         return FlatterPlate(1.0, 1.0, 0.0, 0.0)
-    x, R, modulus = np.array([a, a * factor ** (-1.0 / 3.0)]), law.model.R, law.modulus
+    change, rate, of_modes, of_modes_rate = flattening
+    factor, ratio = 1.0 + change, (1.0 + change) ** (-1.0 / 3.0)
     for _ in range(STEPS):
-        if not SMALLEST * a <= x[1] <= a:
+        if not SMALLEST <= ratio <= 1.0:
             return FlatterPlate(factor, *3 * (math.nan,))
-        # The law takes increasing radii.
-        at = law.at(x[::-1])
-        force, stiffness = law.force(x[::-1], at)[::-1], law.stiffness(x[::-1], at)[::-1]
-        growth = stiffness * 2.0 * at.slope[::-1] * (x / R)
-        step = math.log(force[0] / factor / force[1]) * force[1] / (x[1] * growth[1])
+        radii = a * np.array([ratio, 1.0])
+        shape = law.at(radii)
+        force, stiffness = law.force(radii, shape), law.stiffness(radii, shape)
+        growth = stiffness * 2.0 * shape.slope * (radii / law.model.R)  # dP/da
+        step = math.log(force[1] / factor / force[0]) * force[0] / (radii[0] * growth[0])
         if not abs(step) > CLOSE:
             break
-        x[1] *= math.exp(max(-LONGEST, min(LONGEST, step)))
-    depth = law.indentation(x[::-1], at)[::-1]
-    hertz = of_modes * (of_modes / R) - (
-        kernels.hertz_force(of_modes, R, modulus) / kernels.hertz_stiffness(of_modes, modulus)
-    )
-    by_change = depth[1] - force[1] / stiffness[1] - hertz
-    slower = 1.0 / stiffness[1] - 1.0 / stiffness[0]
+        ratio *= math.exp(max(-LONGEST, min(LONGEST, step)))
+    depth, hertz = law.indentation(radii, shape), _of_hertz(law, np.array(of_modes))
+    by_change = depth[0] - force[0] / stiffness[0] - hertz
+    slower = 1.0 / stiffness[0] - 1.0 / stiffness[1]
     return FlatterPlate(
         factor,
-        float(x[1]) / a,
-        float(factor * depth[1] - depth[0] - change * hertz),
-        float(slower + rate * by_change - 2.0 * change * hertz / (a * growth[0])),
+        ratio,
+        float(factor * depth[0] - depth[1] - change * hertz),
+        float(slower + rate * by_change - 2.0 * change * hertz / of_modes * of_modes_rate),
     )
+
+
+def _of_hertz(law: ContactLaw, a: Array) -> float:
+    """Return D - P/k of Hertz's law [m] at a contact radius [m]."""
+    R, modulus = np.asarray(law.model.R), np.asarray(law.modulus)
+    bent = kernels.hertz_force(a, R, modulus) / kernels.hertz_stiffness(a, modulus)
+    return float(a * (a / R) - bent)

@@ -17,6 +17,7 @@ from typing import NamedTuple, Self
 import numpy as np
 
 from derivation.scene.contact_law.corrections import stretching
+from derivation.scene.contact_law.flatter_plate import Flattening
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import last_radius
 from derivation.scene.dynamic.contact_tables import ContactTables, contact_of
@@ -53,26 +54,20 @@ class Change(NamedTuple):
         Change of the indentation [m].
     compliance
         Its derivative with respect to the force [m/N].
-    flatter
-        Relative change of the force at a given contact radius [1]: the plate is curved less.
-    flatter_rate
-        Its derivative with respect to the force, at a given contact radius [1/N].
-    of_modes
-        Contact radius for the weights of the modes [m].
+    flattening
+        Change of the curvature under the sphere.
     steepness
         Mean square of the slope, weighted with the energy of stretching [1].
     thinner
         Decrease of half the thickness on the axis by the tension of the middle plane [m].
     error, flatter_error
-        Estimated errors of `depth` [m] and `flatter` [1] by the shapes that do not stretch the
-        plate.
+        Estimated errors of `depth` [m] and of `flattening.change` [1] by the shapes that do not
+        stretch the plate.
     """
 
     depth: float
     compliance: float
-    flatter: float
-    flatter_rate: float
-    of_modes: float
+    flattening: Flattening
     steepness: float
     thinner: float
     error: float = 0.0
@@ -126,7 +121,8 @@ class StretchedPlate:
         a = self._radius(force, a)
         at = self.contact.at(np.array([a]))
         if not at.force_a[0] > 0.0:  # beyond the tables, or by underflow
-            return Change(*7 * (math.nan,))
+            nan = math.nan
+            return Change(nan, nan, Flattening(*4 * (nan,)), nan, nan)
         load, weights = at.modal_forces[0] / self.force, 1.0 + at.weights_less_one[0]
         linear = self.compliance * load
         q, system = self._deflections(load)
@@ -136,9 +132,12 @@ class StretchedPlate:
         return Change(
             self.depth * float(weights @ less),
             curved / float(at.force_a[0]) + self.depth * float(weights @ faster) / self.force,
-            self._flatter(a, curved),
-            self._flatter(a, self.depth * float(at.less_a[0] @ faster)) / self.force,
-            a,
+            Flattening(
+                self._flatter(a, curved),
+                self._flatter(a, self.depth * float(at.less_a[0] @ faster)) / self.force,
+                a,
+                1.0 / float(at.force_a[0]),
+            ),
             (fourth / second if second else 0.0) * (self.depth / self.contact.modes.b) ** 2,
             float(self.poissons_ratio / self.youngs_modulus * self.plane.axis_tension(q)),
         )
@@ -223,7 +222,7 @@ def change_by_stretching(law: ContactLaw, force: float, a: float) -> Change | No
     change, rough = plate.change(force, a), fewer.change(force, a)
     return change._replace(
         error=LEFT * abs(change.depth - rough.depth),
-        flatter_error=LEFT_OF_CURVATURE * abs(change.flatter - rough.flatter),
+        flatter_error=LEFT_OF_CURVATURE * abs(change.flattening.change - rough.flattening.change),
     )
 
 

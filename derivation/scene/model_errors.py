@@ -75,7 +75,7 @@ def model_errors(
     # The edge has no effect before a wave has returned from it.
     returned = other_edge and motion.inertia.total_time > echo_time(motion.law.model)
     edge = edge_remainder(model, a) if returned else 0.0
-    waves["max_contact_radius"] += curvature_error(motion.inertia.curvature)
+    waves["max_contact_radius"] += curvature_error(motion.law, a, motion.inertia.curvature)
     if law.viscous:
         end = end_error(motion.histories[0][P], waves["max_force"])
         waves["contact_time"] = max(waves["contact_time"], end)

@@ -10,6 +10,7 @@ from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic.modal import ModalPlate, Modes
 from derivation.scene.numerics.chebyshev import by_growth, chebyshev, knots
 from generated.arrays import Double as Array
+from generated.effect_kernels import hertz_force
 from generated.pressure_kernels import force_of_waves
 
 DEGREE, RESOLVED = 32, 0.75
@@ -24,6 +25,9 @@ these coefficients; factor by which the degree grows until they meet it, and lar
 FLATTEST = 0.1
 """Least force over that of the law at the same radius: the plate is then nearly as curved as the
 sphere, and the change by the curvature is no longer proportional to it."""
+SMALL, STEPS = 1e-3, 2
+"""Relative change of the force up to which the radius follows from the growth of the force alone;
+number of Newton's steps for larger changes."""
 
 
 class ContactSamples(NamedTuple):
@@ -105,8 +109,10 @@ class ContactTables:
     def radius_ratio(self, a: Array, q: Array) -> Array:
         """Return the contact radius over that of the law at the same force [1].
 
-        The change of the force is that of waves on a half-space (step 20), with the weights s_j of
-        the law. The indentation at a given force does not change to first order, because
+        A change of curvature that is the same everywhere under the contact acts like another radius
+        of the sphere: it multiplies all forces of the law by the same factor. The factor is that of
+        the force of waves on a half-space (step 20) over Hertz's, with the weights s_j of the law.
+        The indentation at a given force does not change to first order, because
         s_j = dP_j/dP.
 
         Parameters
@@ -124,8 +130,32 @@ class ContactTables:
         less_a = (x / self.top)[:, None] * (polynomials @ self.table[3, :, 1:])
         force, static = polynomials @ self.table[0, :, 0], polynomials @ self.static_change
         waves = force_of_waves(np.array(self.modulus), a, np.vecdot(less_a, q))
-        change = (waves / x**3 - static) / force
-        return np.asarray(np.maximum(FLATTEST, 1.0 + change) ** (-1.0 / 3.0))
+        hertz = hertz_force(np.array(self.top), np.array(self.R), np.array(self.modulus))
+        change = (waves / x**3 - static) / hertz
+        lower = np.log(np.maximum(FLATTEST, 1.0 + change))
+        narrower = -lower / (polynomials @ self.table[2, :, 0] / force)
+        if np.nanmax(np.abs(lower), initial=0.0) > SMALL:
+            narrower = self._narrower(x, force, lower, narrower)
+        return np.exp(narrower)
+
+    def _narrower(self, x: Array, force: Array, lower: Array, guess: Array) -> Array:
+        """Return the logarithm of the radius at which the law has a force divided by a factor.
+
+        Parameters
+        ----------
+        x, force
+            Radii over `top`, and the force over x^3 there [N].
+        lower, guess
+            Logarithm of the factor, and an estimate of the result, which is kept beyond `top`.
+        """
+        narrower = guess
+        for _ in range(STEPS):
+            ratio = np.exp(narrower)
+            polynomials = chebyshev(2.0 * np.minimum(ratio * x, 1.0) - 1.0, self.degree)
+            other = polynomials @ self.table[0, :, 0]
+            growth = polynomials @ self.table[2, :, 0] / other
+            narrower = narrower - (np.log(other / force) + 3.0 * narrower + lower) / growth
+        return np.where(np.exp(narrower) * x <= 1.0, narrower, guess)
 
     def _places(self, a: Array) -> Array:
         """Return radii [m] over `top`; NaN below 0 and above it."""

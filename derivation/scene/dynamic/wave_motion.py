@@ -214,9 +214,17 @@ class DynamicImpact(Motion):
     def at_equal_radius(self) -> float:
         """Force and pressure at the largest contact radius over those of the static law there [1].
 
-        At equal force the curvature of the plate changes the radius, and P grows with its cube.
+        It is the force of the law at the radius that it has at the same force, over that at the
+        largest radius of the plate, which is curved less or more.
         """
-        return (1.0 + self.inertia.curvature) ** -3
+        if not self.inertia.curvature:
+            return 1.0
+        branch, radius = self.impact_history.problem.yielding, self.max_contact_radius
+        if branch is not None:
+            radius *= branch.flattening
+        radii = radius / np.array([1.0 + self.inertia.curvature, 1.0])
+        of_law, there = self.law.force(radii, self.law.at(radii))
+        return float(of_law / there)
 
     def rows(self, times: Array) -> Array:
         """Return the rows of `time_element` at times [s]; in SI units without those of losses."""

@@ -113,10 +113,10 @@ class Branch:
 
 
 def joined(branches: Sequence[Branch]) -> Branch:
-    """Return scenes with the same effects together."""
-    first = branches[0]
-    sizes = {name: np.concatenate([b.sizes[name] for b in branches]) for name in first.sizes}
-    return replace(first, rows=np.concatenate([b.rows for b in branches]), sizes=sizes)
+    """Return scenes with the same effects together, in the order of their indices."""
+    first, rows = branches[0], np.concatenate([branch.rows for branch in branches])
+    sizes = {name: np.concatenate([x.sizes[name] for x in branches]) for name in first.sizes}
+    return replace(first, rows=rows, sizes=sizes).take(np.argsort(rows))
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from derivation.scene.contact_law.flatter_plate import FlatterPlate, flatter_plate
 from derivation.scene.contact_law.law import ContactLaw, Shape
 from derivation.scene.contact_law.limits import check_numbers, last_radius
 from derivation.scene.contact_law.yielding import yielding_of
@@ -29,12 +30,13 @@ class Loaded(NamedTuple):
     """Contact radius [m], force [N], indentation [m] and stiffness [N/m] of a static contact.
 
     `radius_a`, `force_a` and `depth_a` are derivatives with respect to the contact radius of the
-    elastic law without stretching, `elastic_radius`. `change` is that by stretching, if it is
-    included; `radius_a` is then unknown.
+    elastic law without stretching, `elastic_radius`. `change` and `flatter` are those by
+    stretching, if it is included; `radius_a` is then unknown.
     """
 
     elastic_radius: float
     change: Change | None
+    flatter: FlatterPlate | None
     radius: float
     force: float
     depth: float
@@ -42,11 +44,6 @@ class Loaded(NamedTuple):
     radius_a: float
     force_a: float
     depth_a: float
-
-    @property
-    def wider(self) -> float:
-        """Contact radius over that without stretching at the same force [1]."""
-        return 1.0 if self.change is None else self.change.radius
 
 
 def loaded(law: ContactLaw, a: float) -> Loaded:
@@ -64,12 +61,15 @@ def loaded(law: ContactLaw, a: float) -> Loaded:
         depth, depth_a, radius = depth + more, depth_a + more_a, branch.widened(radii, force)
         radius_a = branch.widening(radii, force, force_a)
         stiffness = force_a / depth_a
+    flatter = None
     if change is not None:
-        depth, depth_a = depth + change.depth, depth_a + change.compliance * force_a
-        radius, radius_a = change.radius * radius, math.nan * radius
+        flatter = flatter_plate(law, a, change.flattening)
+        depth = depth + change.depth + flatter.depth
+        depth_a = depth_a + (change.compliance + flatter.compliance) * force_a
+        radius, radius_a = flatter.radius * radius, math.nan * radius
         stiffness = force_a / depth_a
     numbers = radius, force, depth, stiffness, radius_a, force_a, depth_a
-    return Loaded(a, change, *(float(number[0]) for number in numbers))
+    return Loaded(a, change, flatter, *(float(number[0]) for number in numbers))
 
 
 def radius_of(law: ContactLaw, name: str, value: float) -> float:

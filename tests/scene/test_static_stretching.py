@@ -73,10 +73,11 @@ def test_contacts_are_those_of_a_plate_with_large_rotations(
 
 
 @pytest.mark.one_version
-def test_the_error_of_the_force_covers_a_much_narrower_contact() -> None:
+def test_the_force_is_that_of_a_much_narrower_contact() -> None:
     """A large sphere on a plate that is hardly thin: its local indentation is 6 % of the whole.
 
     It is that of Hertz's law here, because the linear law has a contact of nearly twice the radius.
+    The stiffness of that contact would be 20 % smaller.
     """
     thickness, nu = 0.084 * RADIUS, 0.13
     scene, shell = tables("paper", thickness, nu, 0.43 * RADIUS), shell_of("paper", thickness, nu)
@@ -91,7 +92,7 @@ def test_the_error_of_the_force_covers_a_much_narrower_contact() -> None:
         q, _ = shell.static("angle", P * bent / compliance * shell.loaded)
         expected.append(local + float(shell.loaded @ q))
     stiffness = (near[2] - near[0]) / (expected[2] - expected[0])
-    assert contact.stiffness != pytest.approx(stiffness, rel=0.2)
+    assert contact.stiffness == pytest.approx(stiffness, rel=0.1)
     assert contact.stiffness == pytest.approx(stiffness, rel=contact.force_error)
     assert contact.indentation == pytest.approx(expected[1], rel=contact.force_error)
 

@@ -17,6 +17,7 @@ from typing import NamedTuple, Self
 import numpy as np
 
 from derivation.scene.contact_law.corrections import stretching
+from derivation.scene.contact_law.flatter_plate import Flattening
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import last_radius
 from derivation.scene.dynamic.contact_tables import ContactTables, contact_of
@@ -24,7 +25,9 @@ from derivation.scene.dynamic.middle_plane import MiddlePlane
 from derivation.scene.dynamic.modal import ModalPlate, plate_of
 from derivation.scene.dynamic.stretched_shapes import LEFT, with_shapes
 from derivation.scene.errors import SceneError
+from derivation.scene.input.materials import engineering_constants
 from generated.arrays import Double as Array
+from generated.effect_kernels import hertz_force
 from generated.pressure_kernels import force_of_waves
 
 NEGLIGIBLE = 1e-4
@@ -35,8 +38,9 @@ compared with other solutions."""
 ACCURATE, MOST_SHAPES = 1e-4, 192
 """Error by the shapes that do not stretch, over the indentation, above which more shapes are used,
 and largest number of shapes."""
-MOST = 0.5
-"""Largest relative change of the contact radius."""
+LEFT_OF_CURVATURE = 2.0
+"""Estimated error of the curvature by the shapes that do not stretch, over the change since half as
+many: it decreases slowly, because that by a point force is infinite."""
 STEPS, CLOSE = 60, 1e-13
 """Largest number of Newton's steps; relative step that ends the iteration."""
 
@@ -50,19 +54,24 @@ class Change(NamedTuple):
         Change of the indentation [m].
     compliance
         Its derivative with respect to the force [m/N].
-    radius
-        Factor of the contact radius [1]; NaN if it is far from 1, because it is of first order.
+    flattening
+        Change of the curvature under the sphere.
     steepness
         Mean square of the slope, weighted with the energy of stretching [1].
-    error
-        Estimated error of `depth` by the shapes that do not stretch the plate [m].
+    thinner
+        Decrease of half the thickness on the axis by the tension of the middle plane [m].
+    error, flatter_error
+        Estimated errors of `depth` [m] and of `flattening.change` [1] by the shapes that do not
+        stretch the plate.
     """
 
     depth: float
     compliance: float
-    radius: float
+    flattening: Flattening
     steepness: float
+    thinner: float
     error: float = 0.0
+    flatter_error: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -80,6 +89,8 @@ class StretchedPlate:
     depth, force
         Thickness of the plate [m], and force that would deflect it by as much without stretching
         [N].
+    youngs_modulus, poissons_ratio
+        Elastic constants [Pa, 1].
     """
 
     contact: ContactTables
@@ -87,6 +98,8 @@ class StretchedPlate:
     compliance: Array
     depth: float
     force: float
+    youngs_modulus: float
+    poissons_ratio: float
 
     @classmethod
     def of(cls, law: ContactLaw, shapes: int) -> Self:
@@ -100,14 +113,16 @@ class StretchedPlate:
         force = depth / float(np.sum(compliance))
         plane = MiddlePlane.of(law.model, modes, depth, force)
         tables = contact_of(rest, ModalPlate(modes, modes, None), top, pointwise=False)
-        return cls(tables, plane, compliance * (force / depth), depth, force)
+        constants = engineering_constants(model.lam, model.mu)
+        return cls(tables, plane, compliance * (force / depth), depth, force, *constants)
 
     def change(self, force: float, a: float) -> Change:
         """Return the changes at a force [N], whose contact radius without stretching is a [m]."""
         a = self._radius(force, a)
         at = self.contact.at(np.array([a]))
         if not at.force_a[0] > 0.0:  # beyond the tables, or by underflow
-            return Change(*4 * (math.nan,))
+            nan = math.nan
+            return Change(nan, nan, Flattening(*4 * (nan,)), nan, nan)
         load, weights = at.modal_forces[0] / self.force, 1.0 + at.weights_less_one[0]
         linear = self.compliance * load
         q, system = self._deflections(load)
@@ -117,20 +132,23 @@ class StretchedPlate:
         return Change(
             self.depth * float(weights @ less),
             curved / float(at.force_a[0]) + self.depth * float(weights @ faster) / self.force,
-            self._wider(force, a, curved),
+            Flattening(
+                self._flatter(a, curved),
+                self._flatter(a, self.depth * float(at.less_a[0] @ faster)) / self.force,
+                a,
+                1.0 / float(at.force_a[0]),
+            ),
             (fourth / second if second else 0.0) * (self.depth / self.contact.modes.b) ** 2,
+            float(self.poissons_ratio / self.youngs_modulus * self.plane.axis_tension(q)),
         )
 
-    def _wider(self, force: float, a: float, curved: float) -> float:
-        """Return the contact radius over that without stretching, or NaN if it is far from 1.
-
-        As in an impact, the change of the force at a given radius is that of waves on a half-space.
-        """
+    def _flatter(self, a: float, curved: float) -> float:
+        """Return the relative change of the force at a contact radius [m] by a curvature."""
         if self.contact.static_change is None:
-            return 1.0
-        numbers = (np.array(x) for x in (self.contact.modulus, a, curved))
-        wider = float(np.cbrt(1.0 / (1.0 + force_of_waves(*numbers) / force)))
-        return wider if abs(wider - 1.0) <= MOST else math.nan
+            return 0.0
+        modulus, R, radius = np.array(self.contact.modulus), np.array(self.contact.R), np.array(a)
+        waves = force_of_waves(modulus, radius, np.array(curved))
+        return float(waves / hertz_force(radius, R, modulus))
 
     def _radius(self, force: float, a: float) -> float:
         """Return the radius [m] at which the tables have a force [N]; NaN beyond their end.
@@ -201,8 +219,11 @@ def change_by_stretching(law: ContactLaw, force: float, a: float) -> Change | No
     plate, fewer = (_plate_of(law, n) if law.stretches else None for n in (shapes, shapes // 2))
     if plate is None or fewer is None:
         return None
-    change = plate.change(force, a)
-    return change._replace(error=LEFT * abs(change.depth - fewer.change(force, a).depth))
+    change, rough = plate.change(force, a), fewer.change(force, a)
+    return change._replace(
+        error=LEFT * abs(change.depth - rough.depth),
+        flatter_error=LEFT_OF_CURVATURE * abs(change.flattening.change - rough.flattening.change),
+    )
 
 
 def more_shapes(law: ContactLaw, change: Change | None, depth: float) -> ContactLaw | None:

@@ -286,7 +286,8 @@ class _Block:
     ) -> NDArray[np.intp]:
         """Compute the impacts of a group; return the rows that have results."""
         law, error, outputs = group.law, group.error, outputs_of(scene)
-        rest = None if rtol is None else (rtol - error) / (1.0 + error)
+        with np.errstate(invalid="ignore"):  # without a bound on the omitted effects
+            rest = None if rtol is None else (rtol - error) / (1.0 + error)
         impacts = impacts_of(law, len(rows), rest)
 
         def bound_with(omitted: Array) -> Array:

@@ -11,7 +11,7 @@ import shared_scenes
 from shared_scenes import EXAMPLES
 
 from derivation.cli import main
-from derivation.scene import Scene, load, read, simulate
+from derivation.scene import Scene, SceneError, load, read, simulate
 from derivation.scene.impact import selected_effects
 from derivation.scene.output import map as map_
 from derivation.scene.result import Result
@@ -186,8 +186,38 @@ def test_legend_of_a_map_has_one_line_for_effects_that_matter_everywhere(
     """Those that are unknown at other points had another line."""
     result, unknown = simulate(shared_scenes.scene()), np.array([[np.nan, 2.0], [2.0, 2.0]])
     ratios = {"edge": unknown, "bending": np.full((2, 2), 2.0)}
-    axis = np.array([0.01, 1.0])
-    monkeypatch.setattr(map_, "grid", lambda *_: map_.Grid(axis, axis, ratios))
+    axis, nowhere = np.array([0.01, 1.0]), np.zeros((2, 2), dtype=bool)
+    monkeypatch.setattr(map_, "grid", lambda *_: map_.Grid(axis, axis, ratios, nowhere))
     (legend,) = map_.figure(result, 1e-3).legends
     texts = [text.get_text() for text in legend.get_texts()]
     assert [text for text in texts if "everywhere" in text] == ["everywhere: edge, bending"]
+
+
+@pytest.mark.usefixtures("coarse")
+def test_map_shows_where_a_scene_without_density_is_rejected() -> None:
+    """The map was rejected although the scene is not, because inertia matters at other points."""
+    tables = {
+        "sphere": {"radius": 1e-3, "material": "steel"},
+        "plate": {"radius": 20, "thickness": 20, "youngs_modulus": 7e10, "poissons_ratio": 0.3},
+        "impact": {"speed": 0.01},
+    }
+    result = simulate(read(tables), rtol=0.1)
+    actual = map_.grid(result, 0.1)
+    place = np.argwhere(actual.rejected)[0]
+    with pytest.raises(SceneError, match=r"plate\.density: expected a density") as raised:
+        selected_effects(_scene_at(result, actual, *place.tolist()), 0.1)
+    assert str(raised.value) == actual.reason
+    assert all(np.isnan(ratio[actual.rejected]).all() for ratio in actual.ratios.values())
+    (legend,) = map_.figure(result, 0.1).legends
+    texts = [text.get_text() for text in legend.get_texts()]
+    assert any(text.startswith("rejected, for example because plate.density") for text in texts)
+    assert not mapped("block")[1].rejected.any()
+
+
+@pytest.mark.usefixtures("coarse")
+def test_points_outside_the_range_have_lines_unlike_any_shading() -> None:
+    """Their grey was almost that of the shading of two effects."""
+    made = map_.figure(mapped("block")[0], 1e-3)
+    (legend,) = made.legends
+    [outside] = [x for x in legend.get_patches() if x.get_hatch()]
+    assert made.axes[0].patch.get_hatch() == outside.get_hatch()

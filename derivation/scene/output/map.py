@@ -8,6 +8,7 @@ as for the scene itself (`selection.select`), so that the map agrees with `expla
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -38,8 +39,12 @@ RADII = np.geomspace(1e-3, 6.0, 25)
 COLOURS = ("#1f4e79", "#b35806", "#1b7837", "#762a83", "#b2182b", "#01665e", "#e7298a")
 CHOICES = {"auto": "", True: " (enabled in the scene)", False: " (disabled in the scene)"}
 """Remark in the legend by the choice of the scene."""
-OUTSIDE = "0.88"
-"""Grey of points outside the range of the contact law."""
+OUTSIDE: dict[str, Any] = {"facecolor": "0.88", "edgecolor": "0.78", "hatch": "///"}
+"""Grey with lines of points outside the range of the contact law, unlike any shading."""
+REJECTED = "0.55"
+"""Grey of points at which the scene is rejected."""
+REASON_WIDTH = 90
+"""Largest number of characters of a line of the legend with a reason."""
 TICKS = 9.0
 """Distance of the ticks on a line [pt]."""
 MOST, SIDE = 100.0, 1.001
@@ -56,12 +61,17 @@ class Grid:
         h/b and a/h, including those of the scene [1].
     ratios
         For each effect, its largest change of the results over the tolerance [1]: above 1 where it
-        is needed, below 1 where it is not, NaN outside the range of the contact law.
+        is needed, below 1 where it is not, NaN outside the range of the contact law and where the
+        scene is rejected.
+    rejected, reason
+        Where the scene is rejected, and the reason at one of these points.
     """
 
     thicknesses: Array
     radii: Array
     ratios: dict[str, Array]
+    rejected: NDArray[np.bool_]
+    reason: str = ""
 
 
 def drawn(result: Result) -> list[str]:
@@ -82,11 +92,15 @@ def grid(result: Result, rtol: float) -> Grid:
     prepare(given, points)
     ratios = {name: np.full(known.shape, math.nan) for name in drawn(result)}
     applicable = [name for name in ratios if not given.reasons[name]]
+    rejected, reason = np.zeros_like(known), ""
     for rows, needed, sizes in _sizes(given, points, rtol, result.effects.outputs):
+        if isinstance(sizes, SceneError):
+            rejected.flat[place[rows]], reason = True, str(sizes)
+            continue
         for name in applicable:
             ratio = _ratio(sizes.get(name, math.inf), rtol, given.choice[name], name in needed)
             ratios[name].flat[place[rows]] = ratio
-    return Grid(thicknesses, radii, ratios)
+    return Grid(thicknesses, radii, ratios, rejected, reason)
 
 
 def _points(result: Result) -> tuple[Array, Array, NDArray[np.bool_], Model]:
@@ -122,10 +136,10 @@ def _many(model: Model, **numbers: Array) -> Model:
 
 def _sizes(
     given: Candidates, model: Model, rtol: float, outputs: Sequence[str], clear: float = CLEAR
-) -> Iterator[tuple[Rows, frozenset[str], dict[str, Array]]]:
+) -> Iterator[tuple[Rows, frozenset[str], dict[str, Array] | SceneError]]:
     """Yield points with the same needed effects, these effects, and the sizes of all effects.
 
-    Points at which the scene is rejected are left out.
+    Where the scene is rejected, the error replaces the sizes.
     """
     tolerances = np.full(np.size(model.v0), rtol)
     for branch, decided in selections(given, model, tolerances, outputs, clear=clear):
@@ -133,7 +147,9 @@ def _sizes(
             for row in branch.rows.tolist():
                 for _, needed, sizes in _sizes(given, model.take(row), rtol, outputs, clear=1.0):
                     yield np.array([row]), needed, sizes
-        elif not isinstance(decided, SceneError):
+        elif isinstance(decided, SceneError):
+            yield branch.rows, branch.included, decided
+        else:
             yield branch.rows, branch.included, decided.sizes(given, branch, outputs)
 
 
@@ -177,6 +193,7 @@ def lines(map_grid: Grid) -> dict[tuple[str, ...], Array]:
 
 def figure(result: Result, rtol: float) -> "Figure":
     """Return the map of a scene as a Matplotlib figure."""
+    from matplotlib.colors import ListedColormap
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
@@ -184,7 +201,8 @@ def figure(result: Result, rtol: float) -> "Figure":
     map_grid, wanted = grid(result, rtol), result.scene.effects.model_dump()
     made = Figure(figsize=(7.5, 6.5), layout="constrained")
     axes = made.subplots()
-    axes.set(facecolor=OUTSIDE, xscale="log", yscale="log")
+    axes.set(xscale="log", yscale="log")
+    axes.patch.set(**OUTSIDE)
     known = np.isfinite(np.array([*map_grid.ratios.values()])).any(axis=0)
     axes.contourf(
         map_grid.thicknesses, map_grid.radii, np.where(known, 0.0, np.nan), colors=["white"]
@@ -213,7 +231,16 @@ def figure(result: Result, rtol: float) -> "Figure":
         fontsize=10,
     )
     handles, _ = axes.get_legend_handles_labels()
-    handles.append(Patch(facecolor=OUTSIDE, label="outside the range of the contact law"))
+    handles.append(Patch(**OUTSIDE, label="outside the range of the contact law"))
+    if map_grid.reason:
+        axes.pcolormesh(
+            *(map_grid.thicknesses, map_grid.radii),
+            np.ma.masked_equal(map_grid.rejected, False),
+            cmap=ListedColormap([REJECTED]), shading="nearest",
+        )  # fmt: skip
+        reason, _, _ = map_grid.reason.partition(", got ")
+        label = fill(f"rejected, for example because {reason}", REASON_WIDTH)
+        handles.append(Patch(facecolor=REJECTED, label=label))
     made.legend(handles=handles, loc="outside lower center", fontsize=8, frameon=False)
     return made
 

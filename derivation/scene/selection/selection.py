@@ -82,7 +82,7 @@ class Selection:
 
 @dataclass(frozen=True)
 class Branch:
-    """Scenes that include the same effects, added in the same order.
+    """Scenes that include the same effects.
 
     Attributes
     ----------
@@ -110,6 +110,13 @@ class Branch:
         along = given.along[effect.name]
         required = {**self.required, **dict.fromkeys(along - self.included, effect.name)}
         return replace(self, included=self.included | {effect.name} | along, required=required)
+
+
+def joined(branches: Sequence[Branch]) -> Branch:
+    """Return scenes with the same effects together, in the order of their indices."""
+    first, rows = branches[0], np.concatenate([branch.rows for branch in branches])
+    sizes = {name: np.concatenate([x.sizes[name] for x in branches]) for name in first.sizes}
+    return replace(first, rows=rows, sizes=sizes).take(np.argsort(rows))
 
 
 @dataclass(frozen=True)
@@ -221,55 +228,61 @@ def selections(
     Yields
     ------
     tuple
-        Scenes with the same effects, added in the same order. Then their selection, or the error by
+        Scenes with the same effects. Then their selection, or the error by
         which they are rejected, or None if they are not decided.
     """
-    waiting = list(begun) or [Branch(np.arange(len(rtol)), given.included, given.required)]
-    while waiting:
-        branch = waiting.pop()
-        if (count := len(branch.rows)) > TOGETHER:
-            waiting += [branch.take(slice(i, i + TOGETHER)) for i in range(0, count, TOGETHER)]
-            continue
-        part = model if count == len(rtol) else model.take(branch.rows)
-        law, open_ = ContactLaw(part, branch.included), given.left(branch.included)
-        try:  # before the largest contact, which may take much longer
-            given.check(replace(law, model=part.take(0)))
-        except SceneError as error:
-            yield branch, error
-            continue
-        if stops(law):
-            yield branch, None
-            continue
-        if not open_:
-            yield branch, Decided(law, (), np.zeros(count), np.arange(count))
-            continue
-        state, limit = state_of(law), rtol[branch.rows]
-        bound = errors_of(state, open_, outputs).ravel()
-        # With plate inertia, half of the tolerance is left to omitted modes and branches.
-        goal = 0.5 * limit if law.dynamic else limit
-        candidates = [effect for effect in open_ if effect.name not in given.blocked]
-        done = (clear * bound <= goal) | (not candidates)
-        going_on = ~done & (bound > clear * goal) & (bound <= largest)
-        if going_on.any():
-            sizes = {e.name: sizes_of(state, e, outputs).ravel() for e in candidates}
-            worst = np.where(going_on, _largest([*sizes.values()], clear), -1)
-            branch, going_on = replace(branch, sizes={**branch.sizes, **sizes}), worst >= 0
-            for number in np.unique(worst[going_on]).tolist():
-                waiting.append(branch.take(worst == number).adding(candidates[number], given))
-        lost = ~(done | going_on)
-        if done.any():
-            for row, refusal in _refusals(given, state, outputs, limit, clear).items():
-                if done[row] and refusal is not None:
-                    yield branch.take([row]), refusal
-                lost[row] |= done[row] and refusal is None
-                done[row] = False
-        if done.any():
-            which = np.flatnonzero(done)
-            decided = Decided(law, tuple(open_), bound[which], which)
-            vars(decided)["state"] = state  # known already
-            yield branch.take(which), decided
-        if lost.any():
-            yield branch.take(lost), None
+    waiting: dict[frozenset[Any], list[Branch]] = {}
+
+    def add(branch: Branch) -> None:
+        waiting.setdefault(branch.included.union(branch.required.items()), []).append(branch)
+
+    for branch in begun or [Branch(np.arange(len(rtol)), given.included, given.required)]:
+        add(branch)
+    while waiting:  # the fewest effects first, so that scenes with equal effects are together
+        together = joined(waiting.pop(min(waiting, key=len)))
+        for start in range(0, len(together.rows), TOGETHER):
+            branch = together.take(slice(start, start + TOGETHER))
+            count = len(branch.rows)
+            part = model if count == len(rtol) else model.take(branch.rows)
+            law, open_ = ContactLaw(part, branch.included), given.left(branch.included)
+            try:  # before the largest contact, which may take much longer
+                given.check(replace(law, model=part.take(0)))
+            except SceneError as error:
+                yield branch, error
+                continue
+            if stops(law):
+                yield branch, None
+                continue
+            if not open_:
+                yield branch, Decided(law, (), np.zeros(count), np.arange(count))
+                continue
+            state, limit = state_of(law), rtol[branch.rows]
+            bound = errors_of(state, open_, outputs).ravel()
+            # With plate inertia, half of the tolerance is left to omitted modes and branches.
+            goal = 0.5 * limit if law.dynamic else limit
+            candidates = [effect for effect in open_ if effect.name not in given.blocked]
+            done = (clear * bound <= goal) | (not candidates)
+            going_on = ~done & (bound > clear * goal) & (bound <= largest)
+            if going_on.any():
+                sizes = {e.name: sizes_of(state, e, outputs).ravel() for e in candidates}
+                worst = np.where(going_on, _largest([*sizes.values()], clear), -1)
+                branch, going_on = replace(branch, sizes={**branch.sizes, **sizes}), worst >= 0
+                for number in np.unique(worst[going_on]).tolist():
+                    add(branch.take(worst == number).adding(candidates[number], given))
+            lost = ~(done | going_on)
+            if done.any():
+                for row, refusal in _refusals(given, state, outputs, limit, clear).items():
+                    if done[row] and refusal is not None:
+                        yield branch.take([row]), refusal
+                    lost[row] |= done[row] and refusal is None
+                    done[row] = False
+            if done.any():
+                which = np.flatnonzero(done)
+                decided = Decided(law, tuple(open_), bound[which], which)
+                vars(decided)["state"] = state  # known already
+                yield branch.take(which), decided
+            if lost.any():
+                yield branch.take(lost), None
 
 
 def _largest(sizes: Sequence[Array], clear: float) -> Rows:

@@ -131,8 +131,9 @@ def curvature_error(law: "ContactLaw", a: float, change: float) -> float:
     -----
     The change of the curvature is taken as the same everywhere under the contact. Between two
     static plates a formula of first order was wrong by up to 0.4 % of changes of 2 %, 4 % of 10 %
-    and 90 % of 50 %; the present one by at most 1 % of changes up to 6 %. At a given force, the logarithm of the pressure at the centre
-    changes by that of the radius times d log(p/P)/d log a: by twice as much on a half-space.
+    and 90 % of 50 %; the present one by at most 1 % of changes up to 6 %. At a given force, the
+    logarithm of the pressure at the centre changes by that of the radius times
+    d log(p/P)/d log a: by twice as much on a half-space.
     """
     if not change:
         return 0.0

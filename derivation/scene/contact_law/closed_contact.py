@@ -47,7 +47,8 @@ def closed_up_to(case: SolvedCase, high: float) -> float:
 
 def _at_zero(values: Array, at: Array) -> float:
     """Return the interpolated value at zero from values at other numbers; NaN without any."""
-    for order in range(1, len(at)):
-        first, last = at[:-order], at[order:]
-        values = (last * values[:-1] - first * values[1:]) / (last - first)
+    with np.errstate(all="ignore"):  # equal numbers give no value
+        for order in range(1, len(at)):
+            first, last = at[:-order], at[order:]
+            values = (last * values[:-1] - first * values[1:]) / (last - first)
     return float(values[0]) if len(values) else math.nan

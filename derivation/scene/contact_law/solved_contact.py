@@ -25,7 +25,6 @@ TAIL = 1e-15
 NARROW = 0.5
 """Largest radius of the first polynomial, over the smallest one of h, b and R; each of the others
 is for radii up to twice that of the one before."""
-
 MANY = 8192
 """Number of contacts whose polynomials are kept: those of scenes that are computed together."""
 

@@ -194,6 +194,19 @@ def test_legend_of_a_map_has_one_line_for_effects_that_matter_everywhere(
 
 
 @pytest.mark.usefixtures("coarse")
+@pytest.mark.parametrize("name", ["pad", "ball_drop"])
+def test_legend_is_within_the_picture(name: str) -> None:
+    """In the map of the pad all nine effects matter everywhere."""
+    result, _ = mapped(name)
+    made = map_.figure(result, result.effects.rtol)
+    made.draw_without_rendering()
+    (legend,) = made.legends
+    extent = legend.get_window_extent()
+    assert made.bbox.xmin <= extent.xmin
+    assert extent.xmax <= made.bbox.xmax
+
+
+@pytest.mark.usefixtures("coarse")
 def test_map_shows_where_a_scene_without_density_is_rejected() -> None:
     """The map was rejected although the scene is not, because inertia matters at other points."""
     tables = {

@@ -43,8 +43,8 @@ OUTSIDE: dict[str, Any] = {"facecolor": "0.88", "edgecolor": "0.78", "hatch": "/
 """Grey with lines of points outside the range of the contact law, unlike any shading."""
 REJECTED = "0.55"
 """Grey of points at which the scene is rejected."""
-REASON_WIDTH = 90
-"""Largest number of characters of a line of the legend with a reason."""
+LABEL_WIDTH = 90
+"""Largest number of characters of a line of the legend."""
 TICKS = 9.0
 """Distance of the ticks on a line [pt]."""
 MOST, SIDE = 100.0, 1.001
@@ -239,8 +239,10 @@ def figure(result: Result, rtol: float) -> "Figure":
             cmap=ListedColormap([REJECTED]), shading="nearest",
         )  # fmt: skip
         reason, _, _ = map_grid.reason.partition(", got ")
-        label = fill(f"rejected, for example because {reason}", REASON_WIDTH)
+        label = f"rejected, for example because {reason}"
         handles.append(Patch(facecolor=REJECTED, label=label))
+    for handle in handles:
+        handle.set_label(fill(str(handle.get_label()), LABEL_WIDTH))
     made.legend(handles=handles, loc="outside lower center", fontsize=8, frameon=False)
     return made
 

@@ -12,11 +12,14 @@ from test_rows import check, in_arrays
 from derivation.scene import read
 from derivation.scene.contact_law import solved_contact
 from derivation.scene.contact_law.closed_contact import closed_up_to
-from derivation.scene.contact_law.solved_contact import SolvedCase, force_at, shape_at
+from derivation.scene.contact_law.solved_contact import (
+    INTERPOLATION,
+    SolvedCase,
+    force_at,
+    shape_at,
+)
 from generated import non_hertzian_pressure
 
-ACCURACY = 6e-14
-"""Largest relative difference, below the tested error of the solution itself."""
 WIDE: dict[str, dict[str, Any]] = {
     "sphere": {"radius": 0.13, "density": 7850},
     "plate": {
@@ -55,10 +58,10 @@ def test_interpolation_equals_the_solution(
         (compliance, 1.0 / solution.stiffness),
         (growth, solution.stiffness * solution.slope),
     ):
-        np.testing.assert_allclose(actual, expected, rtol=ACCURACY)
+        np.testing.assert_allclose(actual, expected, rtol=INTERPOLATION)
     pressure = 2.0 / math.pi * case.modulus * a / case.R * shape.centre
     difference = np.abs(pressure - solution.centre_pressure) / solution.mean_pressure
-    assert np.max(difference) < ACCURACY
+    assert np.max(difference) < INTERPOLATION
 
 
 @pytest.mark.parametrize("edge", [-0.3, 0.0, 0.1])
@@ -91,7 +94,7 @@ def test_a_contact_without_a_polynomial_is_solved_at_each_radius(
     monkeypatch.setattr(solved_contact, "_table", lambda *_: None)
     for actual, expected in zip(shape_at(a, case, 0.1), interpolated, strict=True):
         assert not np.array_equal(actual, expected)
-        np.testing.assert_allclose(actual, expected, rtol=ACCURACY)
+        np.testing.assert_allclose(actual, expected, rtol=INTERPOLATION)
 
 
 def test_radii_outside_the_contact_give_no_number() -> None:

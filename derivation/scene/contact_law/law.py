@@ -20,10 +20,7 @@ import numpy as np
 
 from derivation.scene import kernels
 from derivation.scene.contact_law import solved_law
-from derivation.scene.contact_law.solved_contact import (
-    SolvedCase,
-    pressure_at,
-)
+from derivation.scene.contact_law.solved_contact import SolvedCase, pressure_at
 from derivation.scene.effects import BY_NAME, PAPER, WHOLE_PLATE, edge
 from derivation.scene.effects.effect import Contribution, Effect, PlateEffect, Reach
 from derivation.scene.effects.finite_thickness import plate_contribution

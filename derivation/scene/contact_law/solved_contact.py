@@ -25,6 +25,8 @@ TAIL = 1e-15
 NARROW = 0.5
 """Largest radius of the first polynomial, over the smallest one of h, b and R; each of the others
 is for radii up to twice that of the one before."""
+INTERPOLATION = 4e-14
+"""Tested limit of the relative difference between an interpolated contact and its solution."""
 MANY = 8192
 """Number of contacts whose polynomials are kept: those of scenes that are computed together."""
 
@@ -67,6 +69,17 @@ class SolvedShape(NamedTuple):
     compliance: Array
     growth: Array
     centre: Array
+
+    def with_linear(self, linear: Array) -> tuple[Array, Array]:
+        """Return indentation, and d delta/dP over that of Hertz's law at the same force.
+
+        Parameters
+        ----------
+        linear
+            d delta/dP of the linear deflection over that of Hertz's law at the same force [1].
+        """
+        root = np.cbrt(self.force)
+        return self.depth + root * root * (2.0 / 3.0 * linear), root * self.compliance + linear
 
 
 @lru_cache(maxsize=MANY)
@@ -125,12 +138,11 @@ def _table(case: SolvedCase, first: float, last: float) -> Array | None:
         x, analysis = points(degree + 1, degree)
         a = first + (last - first) * x
         shape = _shape(a, case)
-        # Depth and compliance of a thin plate may be 0 or negative without the linear deflection.
+        # Depth and compliance of a thin plate may be 0 or negative without the linear deflection;
+        # the error of pressures is relative to the mean pressure.
         root = np.cbrt(shape.force)
-        linear = linear_deflection(case) * a * root
-        whole = np.array(shape)
-        whole[1:3] += 2.0 / 3.0 * root * root * linear, linear / root
-        whole[4] = shape.force  # the error of pressures is relative to the mean pressure
+        depth, additive = shape.with_linear(linear_deflection(case) * a * root)
+        whole = shape.force, depth, additive / root, shape.growth, shape.force
         table = analysis @ np.array(shape).T
         if np.all(np.abs(table[-2:]) <= TAIL * np.min(whole, axis=1)):
             return table

@@ -33,8 +33,7 @@ def shape(law: "ContactLaw", a: Array) -> tuple[Array, Array, Array, Array]:
     root = np.cbrt(at.force)
     equal = a * root  # Hertz's radius of the force
     linear = _column(law, [*map(linear_deflection, cases(law))]) * equal
-    depth = at.depth + root * root * (2.0 / 3.0 * linear)
-    additive = root * at.compliance + linear
+    depth, additive = at.with_linear(linear)
     growth = at.growth / (root * root)  # d equal/da
     part = 1.0 / (1.0 + law.softness)
     others = [effect.contribution(model, equal) for effect in law.beyond_whole_plate]

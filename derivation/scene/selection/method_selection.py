@@ -322,9 +322,10 @@ def rounding_of(law: ContactLaw) -> float:
     """Return the tested bound on rounding errors, including those of pressure and time steps."""
     rounding = kernels.ROUNDING
     if law.solved:
+        from derivation.scene.contact_law.solved_contact import INTERPOLATION
         from generated.pressure_numbers import ERROR
 
-        rounding += ERROR
+        rounding += ERROR + INTERPOLATION
     if law.viscous:
         from derivation.scene.quasi_static.viscous import ROUNDING
 

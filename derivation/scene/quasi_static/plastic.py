@@ -33,7 +33,7 @@ from generated.arrays import Double as Array
 STAGES = 14, 16
 """Nodes of a time element, in the run for the error estimate and in the final run."""
 ROUNDING = 2e-12
-"""Tested bound on the rounding errors of the results [1]."""
+"""Tested bound on the rounding errors of time elements [1]."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,7 @@ def by_time_elements(law: ContactLaw) -> PlasticMotion:
     problem = _problem(law)
     rough, fine = (_motion(problem, n, law) for n in STAGES)
     pairs = zip(fine.numbers, rough.numbers, strict=True)
-    change = max(abs(new / old - 1.0) for new, old in pairs)
+    change = ROUNDING + max(abs(new / old - 1.0) for new, old in pairs)
     balance = fine.energy_balance
     assert balance is not None
     if balance.initial_kinetic * balance.rebound_kinetic > 0.0:  # not below the smallest double

@@ -3,6 +3,7 @@
 import math
 from typing import Any
 
+import mpmath as mp
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
@@ -11,11 +12,13 @@ from hypothesis import strategies as st
 from derivation.scene import SceneError, read, simulate
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.impact import selected_effects
+from derivation.scene.model import Model
 from derivation.scene.quasi_static import plastic, yield_phases
 from derivation.scene.result import UNITS
 from derivation.scene.rows import rows as many
 from derivation.scene.selection.method_selection import moved
 from generated.arrays import Double as Array
+from generated.plasticity import yield_speed
 
 BALL: dict[str, Any] = {"radius": 0.01, "material": "steel", "yield_stress": 1e9}
 FORCED = {"inertia": False, "plasticity": True}
@@ -69,11 +72,71 @@ def test_quadratures_agree_with_time_elements(tables: dict[str, Any]) -> None:
     except SceneError:
         assume(False)
         raise
-    allowed = actual.quadrature + expected.quadrature + 2.0 * plastic.ROUNDING
+    allowed = actual.quadrature + expected.quadrature + yield_phases.ROUNDING
     np.testing.assert_allclose(actual.numbers, expected.numbers, rtol=allowed)
     assert actual.dent == pytest.approx(expected.dent, rel=1e-8)
     assert actual.energy_balance is not None
     assert abs(actual.energy_balance.residual) <= actual.quadrature + 1e-15
+
+
+def exact(model: Model) -> tuple[mp.mpf, ...]:
+    """Return the results of an impact on a half-space that yields, by exact integrals.
+
+    In units of the radius a_y at the onset of yield, with a paraboloid for which P = s^3 and
+    delta = s^2, the energy is 2/5 at the onset and grows by 2 s^5 ds (Thornton 1997).
+    """
+    R, m, v0, lam, mu, Y = map(mp.mpf, (model.R, model.m, model.v0, model.lam, model.mu,
+                                       model.yield_stress))  # fmt: skip
+    modulus = 4 * mu * (lam + mu) / (lam + 2 * mu)
+    a_y = mp.pi * 8 * Y * R / 5 / (2 * modulus)
+    energy = 3 * m * v0**2 * R**2 / (8 * modulus * a_y**5)
+    elastic = (5 * energy / 2) ** (mp.mpf(1) / 5)
+    top = (1 + 3 * (energy - mp.mpf(2) / 5)) ** (mp.mpf(1) / 6)
+    flat = mp.sqrt(3) * top / mp.sqrt(2 * top**3 + 1)
+
+    def mean(power: int, last: mp.mpf, s: mp.mpf) -> mp.mpf:
+        """Return (last^n - s^n)/(last - s)."""
+        return mp.fsum(last**k * s ** (power - 1 - k) for k in range(power))
+
+    def duration(slope: mp.mpf, power: int, last: mp.mpf, first: mp.mpf) -> mp.mpf:
+        """Return int ds 2 slope s^(power - 4)/sqrt(1 - w/energy) from `first` to `last`."""
+        length = last - first
+
+        def rate(u: mp.mpf) -> mp.mpf:
+            s = last - length * u * u
+            left = 2 * slope * mean(power, last, s) / power / energy
+            return 4 * slope * s ** (power - 4) * mp.sqrt(length) / mp.sqrt(left)
+
+        return mp.quad(rate, [0, mp.mpf(1) / 2, 1])
+
+    before = duration(mp.mpf(1), 5, elastic, mp.mpf(0)) - duration(mp.mpf(1), 5, elastic, mp.mpf(1))
+    after = duration(mp.mpf(1), 6, top, mp.mpf(1)) + duration(flat, 5, top, mp.mpf(0))
+    depth = top**2 + (top - 1) ** 2 * (2 * top + 1) / 3
+    return (
+        a_y**2 / R / v0 * (before + after),
+        a_y**2 / R * depth,
+        4 * modulus * (a_y * top) ** 3 / R / 3,
+        a_y * top / flat,
+        mp.sqrt(2 * flat * top**5 / 5 / energy),
+    )
+
+
+@pytest.mark.one_version
+@given(
+    log_uniform(1e-4, 1.0), log_uniform(1e-6, 10.0), log_uniform(1e7, 1e12),
+    log_uniform(1e7, 1e12), log_uniform(1e-5, 1e-2), log_uniform(1e-6, 1e4),
+)  # fmt: skip
+@settings(max_examples=15)
+def test_impacts_on_a_half_space_agree_with_exact_integrals(
+    R: float, m: float, lam: float, mu: float, stress: float, excess: float
+) -> None:
+    speed = float(yield_speed(R, m, lam, mu, mu * stress)) * (1.0 + excess)
+    model = Model(R=R, m=m, v0=speed, h=1e9 * R, b=2e9 * R, lam=lam, mu=mu,
+                  yield_stress=mu * stress)  # fmt: skip
+    actual = moved(ContactLaw(model, frozenset({"hertz", "plasticity"})))
+    with mp.workdps(30):
+        errors = [float(abs(x / y - 1)) for x, y in zip(actual.numbers, exact(model), strict=True)]
+    assert max(errors) <= yield_phases.ROUNDING
 
 
 def speed_of_yield(plate: dict[str, Any]) -> float:

@@ -72,6 +72,8 @@ class DynamicProblem:
         viscoelastic contact [1].
     middle_plane
         The middle plane, if it stretches.
+    rough_plane
+        The same with few shapes, for flights that need not be accurate; None without enough shapes.
     """
 
     contact: ContactTables
@@ -88,6 +90,7 @@ class DynamicProblem:
     range_end: str = ""
     bending_fraction: Array | float = 1.0
     middle_plane: MiddlePlane | None = None
+    rough_plane: MiddlePlane | None = None
 
     @property
     def force(self) -> float:

@@ -8,6 +8,8 @@ import pytest
 from derivation.scene import explain, read
 from derivation.scene.dynamic import stretched_flight
 from derivation.scene.dynamic.contact_sequence import ContactRun, impact_history
+from derivation.scene.dynamic.flight import may_touch, slow_modes
+from derivation.scene.dynamic.modal import Indices
 from derivation.scene.dynamic.mode_count import branching
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
 from derivation.scene.dynamic.stretched_flight import (
@@ -120,3 +122,22 @@ def test_margin_covers_the_error_of_the_deflection(
     assert np.count_nonzero(inside) > 5
     assert np.all(errors <= margins[inside])
     assert np.max(errors[1:] / margins[inside][1:]) > 0.01
+
+
+def test_slow_modes_exclude_a_contact_only_where_none_is_possible(followed: Followed) -> None:
+    problem, state = followed.problem, followed.last.pieces[20].start
+    times = np.linspace(0.0, 50.0, TIMES)
+    modes, change = slow_modes(problem, state)
+    assert 0 < modes.size < problem.omega.size / 2
+
+    def moved(modes: Indices | slice) -> Array:
+        """Return by how much modes have moved the face."""
+        deflections = problem.deflections(state, times, modes)
+        return np.asarray(np.sum(deflections - state.q[modes], axis=1))
+
+    assert 0.2 * change < np.max(np.abs(moved(slice(None)) - moved(modes))) < change
+    overlap = np.quantile(moved(slice(None)), 0.1) - moved(slice(None))
+    gap = np.full(TIMES, np.quantile(moved(slice(None)), 0.1) + change)
+    may = may_touch(problem, state, gap, times, modes)
+    assert np.all(may[overlap >= 0.0])
+    assert np.mean(may) < 0.3

@@ -3,8 +3,10 @@
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from derivation.scene.dynamic.contact_errors import or_quasi_static
+from derivation.scene.dynamic.modal import Indices
 from derivation.scene.dynamic.oscillators import FreeMotion
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
 from derivation.scene.errors import EndlessError
@@ -17,7 +19,8 @@ AT_ONCE = 2**18
 """Number of values of modes that are computed at once: most flights with many modes are decided
 after a few evaluations."""
 FAST = 0.1
-"""Sum of the amplitudes of modes over the gap below which they cannot close it."""
+"""Sum of the amplitudes of modes over the gap below which they cannot close it, and over that of
+all modes below which their motion need not be known to exclude a contact at most times."""
 RECOVERED = 20.0
 """Time over A_v after which a face counts as recovered: its depth has decayed to 2e-6 of the
 initial one."""
@@ -143,6 +146,33 @@ def _time_apart(problem: DynamicProblem, state: ImpactState) -> float:
     # The fast modes may change by twice their amplitudes.
     near = np.flatnonzero(into + 2.0 * float(beyond[slow]) >= 0.0)
     return float(t[max(int(near[0]) - 1, 0)]) if near.size else float(t[-1])
+
+
+def slow_modes(problem: DynamicProblem, state: ImpactState) -> tuple[Indices, float]:
+    """Return the slowest modes, and a bound on the change of the deflection by all others."""
+    order = problem.by_speed
+    amplitudes = np.hypot(state.q[order], state.q_dot[order] / problem.omega[order])
+    beyond = np.append(np.cumsum(amplitudes[::-1])[::-1], 0.0)
+    count = int(np.argmax(beyond <= FAST * beyond[0]))
+    return order[:count], 2.0 * float(beyond[count])
+
+
+def may_touch(
+    problem: DynamicProblem, state: ImpactState, overlap: Array, since: Array, modes: Indices
+) -> NDArray[np.bool_]:
+    """Return whether an overlap may be positive at times, less the deflection of some free modes.
+
+    Their amplitudes decide at most times.
+    """
+    most = 2.0 * float(np.sum(np.hypot(state.q[modes], state.q_dot[modes] / problem.omega[modes])))
+    near = np.flatnonzero(overlap + most >= 0.0)
+    block = max(1, AT_ONCE // max(1, modes.size))
+    for some in (near[k : k + block] for k in range(0, near.size, block)):
+        vibrating = problem.deflections(state, since[some], modes)
+        overlap[some] -= np.sum(vibrating, axis=1) - np.sum(state.q[modes])
+    found = np.zeros(overlap.size, dtype=np.bool_)
+    found[near] = overlap[near] >= 0.0
+    return found
 
 
 def _overlap(problem: DynamicProblem, state: ImpactState, t: float, radius: float) -> float:

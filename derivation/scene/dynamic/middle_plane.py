@@ -62,13 +62,13 @@ class MiddlePlane:
     tension_unit: float
 
     @classmethod
-    def of(cls, model: Model, modes: Modes, depth: float, force: float) -> Self:
+    def of(cls, model: Model, modes: Modes, depth: float, force: float, part: int = 1) -> Self:
         """Return the middle plane of a plate, for the units of depth [m] and force [N].
 
         The tension is that of derivation step 33, with the integrals of the polynomial through the
-        values at Gauss' points.
+        values at Gauss' points. Of the shapes that stretch the plate, 1/part are included.
         """
-        count, nu = min(model.inertia.shapes, modes.phi.size), model.poissons_ratio
+        count, nu = min(model.inertia.shapes, modes.phi.size) // part, model.poissons_ratio
         n = POINTS * count + MORE_POINTS
         x, w = gauss(n)
         slopes = modes.shapes(x * model.b)[:count] @ derivative(n).T

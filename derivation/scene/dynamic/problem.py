@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from derivation.scene.contact_law.yielding import Yielding
 from derivation.scene.dynamic.contact_tables import ContactSamples, ContactTables
 from derivation.scene.dynamic.middle_plane import MiddlePlane
+from derivation.scene.dynamic.modal import Indices
 from derivation.scene.dynamic.oscillators import FreeMotion
 from generated.arrays import Double as Array
 
@@ -72,6 +73,8 @@ class DynamicProblem:
         viscoelastic contact [1].
     middle_plane
         The middle plane, if it stretches.
+    rough_plane
+        The same with few shapes, for flights that need not be accurate; None without enough shapes.
     """
 
     contact: ContactTables
@@ -88,6 +91,7 @@ class DynamicProblem:
     range_end: str = ""
     bending_fraction: Array | float = 1.0
     middle_plane: MiddlePlane | None = None
+    rough_plane: MiddlePlane | None = None
 
     @property
     def force(self) -> float:
@@ -258,6 +262,12 @@ class DynamicProblem:
         displacement = state.displacement + (state.velocity + velocity) / 2.0 * t
         energy = np.sum(self.energies(after), axis=-1)
         return np.array([velocity, displacement, np.sum(after.q, axis=-1), energy])
+
+    def deflections(self, state: ImpactState, t: Array, modes: Indices | slice) -> Array:
+        """Return the deflection of some modes after free flights, shape (times, modes)."""
+        q, q_dot, t = state.q[modes], state.q_dot[modes], t[:, None]
+        free = FreeMotion(t * self.omega[modes], self.damping_ratio)
+        return np.asarray(q + q_dot * t + (q_dot * t * free.by_rate - q * free.by_q))
 
     def _vibrated(self, state: ImpactState, t: float | Array) -> tuple[Array, Array]:
         """Return q - q_0 - q_0' t and q' of each mode after free vibration; t may be a column."""

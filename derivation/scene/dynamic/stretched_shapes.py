@@ -46,27 +46,45 @@ def with_enough_shapes(law: ContactLaw, need: float) -> ContactLaw:
     return with_shapes(law, MORE) if law.stretches and need <= ACCURATE else law
 
 
-def with_shape_error(law: ContactLaw, run: DynamicImpact, goal: float) -> DynamicImpact:
+def with_shape_error(
+    law: ContactLaw, run: DynamicImpact, goal: float, rough: DynamicImpact | None = None
+) -> DynamicImpact:
     """Return a run with the estimated error of the shapes that do not stretch the plate.
 
     The simulations with few modes are not charged to the budget of the impact.
+
+    Parameters
+    ----------
+    rough
+        The run of the impact with the fewest modes, if it has been computed. It is one of those
+        with few modes if it has no more than twice as many as shapes stretch the plate.
     """
     shapes = law.model.inertia.shapes
     if not law.stretches or not run.inertia.complete:
         return run
     if run.impact_history.problem.contact.modes.phi.size <= shapes:
         return run  # the change with the number of modes includes it
-    return replace(run, inertia=replace(run.inertia, shape_error=_error(law, shapes, goal)))
+    lowest, count = branching(law, "A0"), shapes
+    if rough:
+        count = rough.impact_history.problem.contact.modes.phi.size
+        if rough.law != lowest or not shapes <= count <= 2 * shapes:
+            rough, count = None, shapes
+    error = _error(lowest, count, goal, rough)
+    return replace(run, inertia=replace(run.inertia, shape_error=error))
 
 
-def _error(law: ContactLaw, shapes: int, goal: float) -> Results:
-    """Return the estimated relative error of each result [1]."""
-    lowest, close, budget = branching(law, "A0"), time_tolerance(goal), Budget(WORK)
+def _error(law: ContactLaw, count: int, goal: float, rough: DynamicImpact | None) -> Results:
+    """Return the estimated relative error of each result [1].
+
+    Parameters
+    ----------
+    count, rough
+        Number of modes from which it is estimated, and the run with them, if there is one.
+    """
+    shapes, close, budget = law.model.inertia.shapes, time_tolerance(goal), Budget(WORK)
     try:
-        fewer, all_of_them = (
-            run_with(with_shapes(lowest, count), shapes, budget, close, FEWER)
-            for count in (shapes // 2, shapes)
-        )
+        fewer = run_with(with_shapes(law, shapes // 2), count, budget, close, FEWER)
+        all_of_them = rough or run_with(law, count, budget, close, FEWER)
     except SceneError:  # so few modes may make the plate more curved than the sphere
         return UNKNOWN
     if not (fewer.inertia.complete and all_of_them.inertia.complete):

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial.legendre import legval
+from numpy.polynomial.legendre import legvander
 
 from derivation.scene.dynamic.contact_sequence import ContactRun, ImpactHistory
 from derivation.scene.dynamic.stretched_flight import BEGIN
@@ -45,8 +45,9 @@ def stretching_history(history: ImpactHistory, times: Array) -> StretchingHistor
         assert made.stretched is not None
         x = np.maximum(t[here] + shift, 0.0) ** (1.0 / ONSET)
         s = np.minimum(2.0 * (x - made.element.x) / made.element.length - 1.0, 1.0)
-        pull[here] = problem.force * legval(s, made.stretched.pull).T
-        tension[here] = legval(s, made.stretched.tension)
+        basis = legvander(s, made.element.slope.size - 1)
+        pull[here] = problem.force * (basis @ made.stretched.pull)
+        tension[here] = basis @ made.stretched.tension
     return StretchingHistory(pull, tension)
 
 

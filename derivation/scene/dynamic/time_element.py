@@ -135,26 +135,27 @@ def _forces_at(problem: DynamicProblem, nodes: Nodes, radius: float, y: Array) -
 
 def deflections_at(problem: DynamicProblem, nodes: Nodes, radius: float, y: Array) -> Array:
     """Return the deflection of each shape at the nodes for a slope da/dx there."""
-    load = _forces_at(problem, nodes, radius, y)
-    found = _stretched(problem, nodes, load.forces[:, 1:])
-    assert found is not None  # the longer element, of which this one is a part, has a solution
-    return found[0]
+    forces = _forces_at(problem, nodes, radius, y).forces[:, 1:]
+    pull = _stretched(problem, nodes, forces)
+    assert pull is not None  # the longer element, of which this one is a part, has a solution
+    return nodes.even + nodes.moved + modal_deflections(problem, nodes, forces + pull)
 
 
-def _stretched(problem: DynamicProblem, nodes: Nodes, forces: Array) -> tuple[Array, Array] | None:
-    """Return deflection of each shape, and force of stretching on it, for the other forces."""
-    pull, size = _free_pull(problem, nodes, forces.shape), math.inf
+def _stretched(problem: DynamicProblem, nodes: Nodes, forces: Array) -> Array | None:
+    """Return the force of stretching on each shape at the nodes, for the other forces."""
+    pull, size = _free_pull(problem, nodes, forces.shape), 1.0
+    if problem.middle_plane is None:
+        return pull
     for _ in range(NEWTON):
         q = nodes.even + nodes.moved + modal_deflections(problem, nodes, forces + pull)
-        if problem.middle_plane is None:
-            return q, pull
         if _diverges(nodes, q):
             return None
         last, before, pull = size, pull, problem.middle_plane.forces(q)
-        size = float(np.max(np.abs(pull - before)))
         largest = float(np.max(np.abs(pull)))
-        if size <= CLOSE * largest or (size <= NEARLY * largest and size > 0.1 * last):
-            return q, pull
+        size = float(np.max(np.abs(pull - before))) / largest if largest else 0.0
+        # The changes decrease at least as fast as the last one.
+        if size * min(1.0, size / last) <= CLOSE or (size <= NEARLY and size > 0.1 * last):
+            return pull
     return None
 
 
@@ -316,10 +317,10 @@ def free_element(
     """Return an element without contact, with its nodes and values; None without convergence."""
     nodes, shapes = nodes_of(problem, n, x, length, start), problem.contact.modes.phi.size
     none, force = np.zeros(n), np.zeros((n, 1 + shapes))
-    found = _stretched(problem, nodes, force[:, 1:])
-    if found is None:
+    pull = _stretched(problem, nodes, force[:, 1:])
+    if pull is None:
         return None
-    driven = driven_modes(problem, nodes, start, found[1], by_shape=False)
+    driven = driven_modes(problem, nodes, start, pull, by_shape=False)
     at = _values(problem, nodes, start, _Load(none, none, force, force, None), driven.bent)
     energy = driven.energy
     if problem.middle_plane:
@@ -328,7 +329,7 @@ def free_element(
     rows = none, at.v, at.z, none, np.sum(at.q, axis=1), energy, none, none
     values = np.array([*rows, driven.damped * nodes.rate, none])
     made = Element(x, length, values @ rule.analysis.T, none)
-    stretched = _coefficients(problem, at.q, found[1])
+    stretched = _coefficients(problem, at.q, pull)
     last = np.zeros(shapes)
     piece = TimeElement(made, _end(at, driven), 0.0, last, problem.yielding, stretched)
     return piece, nodes, at

@@ -14,6 +14,9 @@ from derivation.scene.model import Model
 
 FINER = 1e-2
 """Last coefficients of the contact tables over the tolerance of the time elements."""
+ROUGH, FEWEST = 8, 4
+"""Number of shapes that stretch the plate over that in a rough flight, and the least number of the
+latter: a simulation of such a flight takes about a fiftieth of the time."""
 
 
 @lru_cache(maxsize=1)  # the work of a run is estimated before it starts
@@ -46,8 +49,11 @@ def problem_with(law: ContactLaw, plate: ModalPlate, tail: float = TAIL) -> Dyna
     elastic_fraction = bending_fraction(model, plate.modes) if retardation else 1.0
     limit = float(law.limit), law.limit_in_words
     depth, force = model.v0 * T, model.m * model.v0 / T
-    stretches = law.stretches
-    plane = MiddlePlane.of(model, plate.modes, depth, force) if stretches else None
+    plane = rough = None
+    if law.stretches:
+        plane = MiddlePlane.of(model, plate.modes, depth, force)
+        if plane.slopes.shape[0] >= ROUGH * FEWEST:
+            rough = MiddlePlane.of(model, plate.modes, depth, force, ROUGH)
     return DynamicProblem(
         contact,
         *units,
@@ -59,6 +65,7 @@ def problem_with(law: ContactLaw, plate: ModalPlate, tail: float = TAIL) -> Dyna
         *limit,
         elastic_fraction,
         plane,
+        rough,
     )
 
 

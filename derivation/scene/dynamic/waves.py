@@ -163,12 +163,14 @@ def _refined(
     while law.model.inertia.infinite_plate and wave_returned(run):
         law = wider(law, first, run)
         run = Refinement(law, goal, reach, budget).impact()
-    found, need = with_shape_error(law, run, goal), reach.need
+    found, need = with_shape_error(law, run, goal, rough), reach.need
     by_shapes = max(found.inertia.shape_error[OUTPUTS.index(name)] for name in reach.outputs)
     if _misses(run, reach) or not _misses(found, reach) or by_shapes >= need:
         return found
     less = Refinement(law, goal, replace(reach, need=need - by_shapes), budget)
-    return _better(found, lambda: with_shape_error(law, less.impact(rough), goal), reach.outputs)
+    return _better(
+        found, lambda: with_shape_error(law, less.impact(rough), goal, rough), reach.outputs
+    )
 
 
 def _misses(run: DynamicImpact, reach: Reach) -> bool:

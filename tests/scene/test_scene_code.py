@@ -251,7 +251,6 @@ def test_viscoelastic_force_depends_on_indentation_and_rate() -> None:
     assert -history.y[1, -1] / law.model.v0 == pytest.approx(result.restitution, rel=1e-6)
 
 
-@pytest.mark.one_version
 @pytest.mark.parametrize("case", ["viscous, bent", "viscous, stiff"])
 def test_integration_with_the_inner_state_gives_the_impact(case: str) -> None:
     names, made = names_of(case), recipe_of(case)

@@ -18,6 +18,7 @@ from derivation.scene.contact_law.limits import (
 )
 from derivation.scene.contact_law.stress_limits import pressure_warnings, stress_warnings
 from derivation.scene.contact_law.yield_warnings import impact_warnings
+from derivation.scene.contact_law.yielding import onset_of
 from derivation.scene.dynamic.contact_warnings import (
     branch_warnings,
     duration_warnings,
@@ -236,7 +237,7 @@ def _yield_warnings(law: ContactLaw, a: float, pressure: float, error: float) ->
     `error` is the relative error of the pressure [1].
     """
     if law.plastic:
-        return impact_warnings(law, a)
+        return impact_warnings(a / onset_of(law))
     model = law.model
     weaker = "sphere" if model.yield_stress < model.plate_yield_stress else "plate"
     return pressure_warnings(pressure, _known(model.yield_stress), law.viscous, weaker, error)

@@ -1,13 +1,18 @@
 """Relative errors of the model of an impact itself, which no tolerance includes."""
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from derivation.scene.contact_law.corrections import stretching
-from derivation.scene.contact_law.edge_curvature import edge_curvature_errors
-from derivation.scene.contact_law.edge_remainder import edge_remainder
-from derivation.scene.contact_law.finite_sphere import finite_sphere_errors
+from derivation.scene.contact_law.edge_curvature import curvature_errors
+from derivation.scene.contact_law.edge_remainder import edge_remainder, edge_remainders
+from derivation.scene.contact_law.finite_sphere import (
+    finite_sphere_error,
+    finite_sphere_errors,
+    rebound_error,
+)
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import local_indentation
 from derivation.scene.dynamic.model_error import curvature_error, end_error, inertia_error
@@ -21,6 +26,7 @@ from derivation.scene.dynamic.unlike_bodies import unlike_bodies_errors
 from derivation.scene.effects.effect import Results, weight_work_ratio
 from derivation.scene.scene import OUTPUTS
 from derivation.scene.selection.method_selection import growth_of
+from generated.arrays import Double as Array
 
 if TYPE_CHECKING:
     from derivation.scene.dynamic.wave_motion import DynamicImpact
@@ -44,30 +50,17 @@ def model_errors(
     """Return the relative model error of each output [1].
 
     It is that by edge, waves, stretching, viscosity, finite size of the sphere and motion of faces.
-
-    On a quasi-static plate, stretching changes the energy that a plastic or viscoelastic contact
-    dissipates. The relative error of the restitution is larger by the ratio of that energy to the
-    remaining energy.
     """
     model, other_edge, a = law.model, law.other_edge, numbers[3]
     growth = growth_of(motion)
     unlike = unlike_bodies_errors(law, numbers[0], motion, growth)
-    sphere = dict(zip(OUTPUTS, finite_sphere_errors(law, numbers, growth), strict=True))
     if motion is None:
-        edge = edge_remainder(model, a) if other_edge else 0.0
-        size = stretching(model, deflections.largest)
-        curvature = edge_curvature_errors(law, a)
-        edge += curvature.results
-        errors: dict[str, float] = {
-            name: edge + float(size) + unlike[name] + sphere[name] for name in OUTPUTS
-        }
-        errors["max_contact_radius"] += curvature.pressure - curvature.results
-        if law.viscous or law.plastic:
-            supplied = 1.0 + float(weight_work_ratio(model, numbers[1]))
-            dissipated = supplied / max(numbers[4], 1e-6) ** 2 - 1.0
-            lost = float(size) * max(1.0, dissipated)
-            errors["restitution"] = edge + lost + unlike["restitution"] + sphere["restitution"]
-        return errors
+        if other_edge:
+            edge_remainder(model, a)  # outside its range it raises an error
+        one = (np.array([x]) for x in (a, numbers[1], deflections.largest, numbers[4]))
+        errors = quasi_static_errors(law, *one)
+        return {name: float(error[0]) + unlike[name] for name, error in errors.items()}
+    sphere = dict(zip(OUTPUTS, finite_sphere_errors(law, numbers, growth), strict=True))
     from derivation.scene.dynamic.wave_problem import echo_time
 
     stretched = stretching_error(law, motion, deflections)
@@ -83,3 +76,39 @@ def model_errors(
         name: max(waves[name] + stretched[name], edge) + unlike[name] + sphere[name]
         for name in OUTPUTS
     }
+
+
+def quasi_static_errors(
+    law: ContactLaw, a: Array, depth: Array, deflection: Array, restitution: Array
+) -> dict[str, Array]:
+    """Return the relative model errors of impacts on quasi-static plates [1].
+
+    Those of a viscoelastic contact whose bodies differ are not included.
+
+    On a quasi-static plate, stretching changes the energy that a plastic or viscoelastic contact
+    dissipates. The relative error of the restitution is larger by the ratio of that energy to the
+    remaining energy.
+
+    Parameters
+    ----------
+    law
+        The law of one scene, or of many as columns.
+    a, depth, deflection, restitution
+        Largest contact radius, indentation and deflection of the plate [m], and restitution [1]:
+        one number each, or columns.
+    """
+    edge, pressure = curvature_errors(law, a)
+    pressed = np.where(edge < math.inf, pressure - edge, 0.0)
+    if law.other_edge:
+        edge = edge_remainders(law.model, a) + edge
+    size = stretching(law.model, deflection)
+    sphere = finite_sphere_error(law, a, depth)
+    error = edge + size + sphere
+    lost = size
+    if law.viscous or law.plastic:
+        supplied = 1.0 + weight_work_ratio(law.model, depth)
+        dissipated = supplied / np.square(np.maximum(restitution, 1e-6)) - 1.0
+        lost = size * np.maximum(1.0, dissipated)
+    rebound = edge + lost + rebound_error(law, a, sphere, restitution)
+    errors: dict[str, Array] = dict.fromkeys(OUTPUTS, error)
+    return errors | {"max_contact_radius": error + pressed, "restitution": rebound}

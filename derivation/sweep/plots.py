@@ -48,6 +48,8 @@ KEY_SYMBOLS = {
 TEX = {"δ": r"\delta", "σ": r"\sigma"}
 LARGEST_FIGURE = 3
 """Largest number of panels in a row."""
+ROOM = 300.0
+"""Ratio of the ends of a logarithmic axis up to which its numbers at 1, 2 and 5 do not overlap."""
 WIDEST_LABEL = 34
 """Largest number of characters of a line beside bars."""
 MOST_COLORS, MOST_LINES, LONGEST_NAME, MOST_LETTERS = 10, 18, 30, 30
@@ -197,7 +199,7 @@ def _curves(axes: "Axes", data: "xr.Dataset", keys: Sequence[str], name: str) ->
         axes.set_xlim(-0.5, len(ticks) - 0.5)
         axes.tick_params("x", labelrotation=0 if sum(map(len, ticks)) <= MOST_LETTERS else 90)
     elif _logarithmic(np.unique(x)):
-        _scale(axes.xaxis)
+        _scale(axes.xaxis, x)
 
 
 def _draw(
@@ -246,9 +248,9 @@ def _map(made: "Figure", axes: "Axes", data: "xr.Dataset", keys: Sequence[str], 
     made.colorbar(drawn, ax=axes, label=label)
     axes.set(xlabel=x_label, ylabel=y_label)
     if _logarithmic(x):
-        _scale(axes.xaxis)
+        _scale(axes.xaxis, x)
     if _logarithmic(y):
-        _scale(axes.yaxis)
+        _scale(axes.yaxis, y)
 
 
 def _bars(axes: "Axes", data: "xr.Dataset", name: str) -> None:
@@ -280,12 +282,13 @@ def _frame(axes: "Axes") -> None:
     axes.spines[["top", "right"]].set_visible(False)
 
 
-def _scale(axis: Any) -> None:
-    """Set a logarithmic axis with plain numbers at 1, 2 and 5."""
+def _scale(axis: Any, values: Array) -> None:
+    """Set a logarithmic axis with plain numbers at 1, 2 and 5; at 1 only if there is no room."""
     from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
     axis.axes.set(**{f"{axis.axis_name}scale": "log"})
-    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    few = values.max() > ROOM * values.min()
+    axis.set_major_locator(LogLocator(subs=(1.0,) if few else (1.0, 2.0, 5.0)))
     axis.set_major_formatter(StrMethodFormatter("{x:g}"))
     axis.set_minor_formatter(NullFormatter())
 

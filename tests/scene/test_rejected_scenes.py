@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -142,6 +143,17 @@ def test_limits_of_poissons_ratio_are_rejected(limit: float) -> None:
     # Hertz: force and modulus go as P ~ E*^(2/5).
     ratio = (inside.max_force / middle.max_force) ** 2.5
     assert ratio == pytest.approx(1 / (1 - nu * nu), rel=1e-6)
+
+
+def test_an_incompressible_solid_is_rejected_with_a_ratio_that_is_nearly_the_same() -> None:
+    plate = {"radius": 0.3, "thickness": 0.01, "youngs_modulus": 1e6, "poissons_ratio": 0.5}
+    scene = {"sphere": {"radius": 0.01, "material": "steel"}, "plate": plate,
+             "impact": {"speed": 1.0}}  # fmt: skip
+    with pytest.raises(SceneError) as error:
+        read(scene)
+    [ratio] = re.findall(r"`poissons_ratio = (.+?)`", str(error.value))
+    assert 0.48 <= float(ratio) < 0.5
+    read(scene | {"plate": plate | {"poissons_ratio": float(ratio)}})
 
 
 def test_bulk_modulus_of_zero_is_rejected() -> None:

@@ -37,7 +37,7 @@ def sometimes(draw: st.DrawFn, table: dict[str, Any], key: str, low: float, high
 
 @st.composite
 def tables(draw: st.DrawFn) -> dict[str, dict[str, Any]]:
-    """Draw a scene of a quasi-static elastic impact."""
+    """Draw a scene of an impact on a quasi-static plate; its contact may yield."""
     R = draw(log_uniform(1e-3, 5e-2))
     b = R * draw(log_uniform(2.0, 100.0))
     sphere: dict[str, Any] = {"radius": R, "material": "steel"}
@@ -58,6 +58,8 @@ def tables(draw: st.DrawFn) -> dict[str, dict[str, Any]]:
     choice = st.sampled_from(["auto", "auto", "auto", True, False])
     effects = {name: draw(choice) for name in FORCED} | {"inertia": False}
     effects["non_hertzian_pressure"] = draw(st.sampled_from(["auto", "auto", True, False, False]))
+    if "yield_stress" in sphere:
+        effects["plasticity"] = draw(choice)
     return {
         "sphere": sphere, "plate": plate, "impact": impact, "effects": effects,
         "materials": {"pane": pane},

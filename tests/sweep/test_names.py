@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Mapping
-from itertools import product
+from itertools import pairwise, product
 from pathlib import Path
 from typing import Any
 
@@ -336,3 +336,16 @@ def test_forecast_includes_every_name(tmp_path: Path) -> None:
     assert main(["sweep", str(scene), *vary, "--explain", "--json", str(path)]) == 0
     data = json.loads(path.read_text())
     assert (data["points"], data["probes"], data["effects"]["edge"]) == (300, 6, 4)
+
+
+@pytest.mark.parametrize("speeds", ["0.01:30:8:log", "1:5:3:log", "0.2:40:4:log", "1e-4:1e4:9:log"])
+def test_numbers_of_a_logarithmic_axis_do_not_overlap(speeds: str) -> None:
+    data = pc.sweep(STATIC, {"impact.speed": speeds})
+    made = plots.figure(data, ["impact.speed"], ["max_force", "restitution", "contact_time"])
+    made.canvas.draw()
+    for axes in made.axes:
+        boxes = [text.get_window_extent() for text in axes.get_xticklabels() if text.get_text()]
+        left, right = axes.bbox.x0 - 1.0, axes.bbox.x1 + 1.0
+        seen = [box for box in boxes if left <= 0.5 * (box.x0 + box.x1) <= right]
+        assert len(seen) >= 2
+        assert all(one.x1 < other.x0 for one, other in pairwise(seen))

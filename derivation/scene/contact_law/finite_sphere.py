@@ -9,7 +9,6 @@ Constants below are measured, by the series of a sphere in Legendre polynomials,
 exact, and by impacts of its spheroidal modes; the tests repeat this.
 """
 
-import math
 from typing import Any
 
 import numpy as np
@@ -130,9 +129,23 @@ def finite_sphere_errors(law: ContactLaw, numbers: Results, growth: Results) -> 
     """
     _, depth, _, a, restitution = numbers
     size = float(finite_sphere_error(law, a, depth))
-    rebound = float(vibration_error(law, a))
-    if law.dynamic or law.viscous or law.plastic:
-        rest = max(abs(restitution), 1e-6) if math.isfinite(restitution) else 1.0
-        rebound += size * max(1.0, LOSS * abs(math.log(rest)))
+    rebound = float(rebound_error(law, a, size, np.asarray(restitution)))
     time, deep, force, radius, speed = growth
     return time * size, deep * size, force * size, radius * size, speed * rebound
+
+
+def rebound_error(law: ContactLaw, a: Values, size: Values, restitution: Array) -> Array:
+    """Return the relative change of the restitution [1], without the growth by vibration.
+
+    Parameters
+    ----------
+    a, size
+        Largest contact radius [m], and relative change of the other results [1].
+    restitution
+        Restitution [1]; NaN if unknown.
+    """
+    error: Array = np.asarray(vibration_error(law, a))
+    if not (law.dynamic or law.viscous or law.plastic):
+        return error
+    known = np.where(np.isfinite(restitution), np.maximum(np.abs(restitution), 1e-6), 1.0)
+    return np.asarray(error + size * np.maximum(1.0, LOSS * np.abs(np.log(known))))

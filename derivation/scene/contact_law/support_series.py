@@ -65,9 +65,12 @@ def _rules() -> tuple[Array, Array, Array]:
 
 
 def _sum(coefficients: Array, point: Array) -> Array:
-    """Sum the series by Clenshaw's rule."""
-    twice, older = 2.0 * point, np.zeros_like(point)
-    newer = np.broadcast_to(coefficients[:, -1:], point.shape)
+    """Sum the series by Clenshaw's rule; three arrays are used again at each step."""
+    twice, older, spare = 2.0 * point, np.zeros_like(point), np.empty_like(point)
+    newer = coefficients[:, -1:] + older
     for k in range(TERMS - 2, 0, -1):
-        newer, older = coefficients[:, k : k + 1] + twice * newer - older, newer
+        np.multiply(twice, newer, out=spare)
+        spare += coefficients[:, k : k + 1]
+        spare -= older
+        newer, older, spare = spare, newer, older
     return coefficients[:, :1] + point * newer - older

@@ -15,6 +15,7 @@ from derivation.scene.contact_law.yielding import onset_of
 from derivation.scene.input.body_materials import body_of, own_materials
 from derivation.scene.quantity import ROUNDED, prefixed, upwards
 from derivation.scene.scene import Scene
+from generated.arrays import Double as Array
 from generated.plasticity_kernels import beyond, risen
 from generated.plasticity_numbers import FULLY_PLASTIC, YIELD_LIMIT
 
@@ -44,7 +45,11 @@ class RisenPressure(NamedTuple):
 
 def risen_pressure(law: ContactLaw, a: float) -> RisenPressure | None:
     """Return the estimated factors at a contact radius [m]; None if they are small."""
-    wide = a / onset_of(law) if law.plastic else 0.0
+    return risen_at(a / onset_of(law)) if law.plastic else None
+
+
+def risen_at(wide: float) -> RisenPressure | None:
+    """Return the estimated factors at a contact radius over that at the onset of yield."""
     if not wide > 1.0:
         return None
     pressure, steep = risen(np.array(wide))
@@ -53,9 +58,17 @@ def risen_pressure(law: ContactLaw, a: float) -> RisenPressure | None:
     return rise if rise.restitution > WARNED else None
 
 
-def impact_warnings(law: ContactLaw, a: float) -> tuple[str, ...]:
-    """Return a warning if the contact radius [m] of an impact is far beyond the onset of yield."""
-    rise = risen_pressure(law, a)
+def risen_restitution(wide: Array) -> Array:
+    """Return the estimated factors of the restitution at `RisenPressure.wide` of at least 1."""
+    return beyond(*risen(wide))[1]
+
+
+def impact_warnings(wide: float) -> tuple[str, ...]:
+    """Return a warning if the contact radius of an impact is far beyond that at the onset of yield.
+
+    `wide` is their ratio.
+    """
+    rise = risen_at(wide)
     if rise is None:
         return ()
     text = (

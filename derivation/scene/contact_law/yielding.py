@@ -136,11 +136,16 @@ def yielding_of(law: ContactLaw) -> Yielding | None:
 
 def onset_of(law: ContactLaw) -> float:
     """Return Hertz's radius [m] of the force at the onset of yield."""
+    return float(onset_radius(law))
+
+
+def onset_radius(law: ContactLaw) -> Array:
+    """Return Hertz's radius [m] of the force at the onset of yield, of one scene or as a column."""
     from generated.plasticity import yield_radius
 
     model = law.model
-    rigid = float(yield_radius(model.R, model.lam, model.mu, model.yield_stress))
-    return rigid * (1.0 + law.softness)
+    rigid = yield_radius(model.R, model.lam, model.mu, model.yield_stress)
+    return np.asarray(rigid * (1.0 + law.softness))
 
 
 @lru_cache(maxsize=4)

@@ -118,6 +118,8 @@ ELSEWHERE = {
 """Remedies for values beyond the range of a key."""
 ENDLESS = ' and, for an infinite plate, extent = "infinite" in [inertia]'
 """Remedy for an infinite radius."""
+INCOMPRESSIBLE = "`poissons_ratio = 0.49`"
+"""Example for a solid that resists compression far more than shear."""
 INFINITE = ("inf", "infinite", "infinity")
 """Values of an infinite radius."""
 
@@ -201,6 +203,8 @@ def explain(kind: str, location: tuple[int | str, ...], value: Any, fields: Fiel
         nearest(value, re.findall(r'"(.+?)"', expected)) if isinstance(value, str) else ()
     ):
         example = f'`{key} = "{suggestion}"`'
+    if key == "poissons_ratio" and kind == "less_than":
+        example = f"{INCOMPRESSIBLE} for a nearly incompressible solid"
     if kind == "missing":
         return f"{name}: {expected}, got nothing; add {example} to [{table}]"
     elsewhere = tolerance_remedy(value) if key == "rtol" else ELSEWHERE.get(key, "")

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.polynomial.legendre import legder, leggauss, legroots, legval, legvander
 
+from derivation.scene.numerics.crossing import rise
 from generated.arrays import Double as Array
 
 ONSET = 6
@@ -21,7 +22,6 @@ NEXT = 1e-14
 _GROWTH = 3.0  # largest factor of the length from one element to the next
 _SAFETY = 0.9  # part of the length that the sizes of the coefficients allow
 _LEAST = 0.01  # least square of a continued row, over the square at the end of its element
-_HALVINGS = 60
 _LOW = 0.1  # least over largest value at the nodes above which a row has no zero between them
 _REAL = 1e-9  # largest imaginary part of a real root, due to rounding
 
@@ -172,12 +172,9 @@ class Element(NamedTuple):
 
     def end(self, row: int) -> float:
         """Return x where a row with a single zero, positive before it, falls through zero."""
-        low, high = self.x, self.x + self.length
-        for _ in range(_HALVINGS):
-            middle = 0.5 * (low + high)
-            above = float(self.at(np.array([middle]))[row, 0]) > 0.0
-            low, high = (middle, high) if above else (low, middle)
-        return low
+        values = self.rows[row]
+        end = rise(lambda s: -float(legval(s, values)), -1.0, 1.0)
+        return self.x + self.length * (1.0 + end) / 2.0
 
     def zero_near_end(self, row: int) -> float:
         """Return x where a row falls through zero, by Newton's step from the end."""

@@ -45,7 +45,7 @@ def rule(n: int, times: int | None = None) -> Rule:
     """Return Gauss' rule with n nodes and its matrices; `times` nodes in time, by default n."""
     x, w = gauss(n)
     u, u_weights = gauss(times or n)
-    analysis = _analysis(n)
+    analysis = analysis_of(n)
 
     def values(q: Array) -> Array:
         return np.asarray(legvander(2.0 * q - 1.0, n - 1) @ analysis, dtype=np.float64)
@@ -59,7 +59,7 @@ def rule(n: int, times: int | None = None) -> Rule:
 
 
 @cache
-def _analysis(n: int) -> Array:
+def analysis_of(n: int) -> Array:
     """Return the matrix of the Legendre coefficients of the polynomial through the nodes."""
     nodes, weights = leggauss(n)
     return np.asarray((legvander(nodes, n - 1) * weights[:, None] * (np.arange(n) + 0.5)).T)
@@ -69,14 +69,14 @@ def _analysis(n: int) -> Array:
 def derivative(n: int) -> Array:
     """Return the matrix of the slope of a polynomial at the nodes."""
     slopes = legder(np.eye(n), axis=0)
-    return np.asarray(2.0 * legvander(leggauss(n)[0], n - 2) @ slopes @ _analysis(n))
+    return np.asarray(2.0 * legvander(leggauss(n)[0], n - 2) @ slopes @ analysis_of(n))
 
 
 @cache
 def up_to(n: int) -> Array:
     """Return the matrix of the integral of a polynomial from 0 to each node."""
     integrals = legint(np.eye(n), lbnd=-1, axis=0)
-    return np.asarray(0.5 * legvander(leggauss(n)[0], n) @ integrals @ _analysis(n))
+    return np.asarray(0.5 * legvander(leggauss(n)[0], n) @ integrals @ analysis_of(n))
 
 
 @cache
@@ -84,7 +84,7 @@ def stored(n: int) -> Array:
     """Return the matrix of the integral of q^4 times a polynomial from 0 to each node."""
     x, w = gauss(n)
     inner = np.outer(x, x)
-    values = legvander(2.0 * inner - 1.0, n - 1) @ _analysis(n)
+    values = legvander(2.0 * inner - 1.0, n - 1) @ analysis_of(n)
     return np.asarray(np.einsum("i,ij,ijk->ik", x, w * inner**4, values), dtype=np.float64)
 
 

@@ -28,10 +28,10 @@ from derivation.scene.numerics.collocation import (
     ONSET,
     Element,
     Radau,
+    converged,
     largest_of,
     newton_step,
     radau,
-    settled,
 )
 from derivation.scene.numerics.quadrature import gauss
 from derivation.scene.quasi_static import motion
@@ -45,11 +45,11 @@ from derivation.scene.quasi_static.viscous_law import (
 )
 from generated.arrays import Double as Array
 
-STAGES = 9, 12
+STAGES = 12, 16
 """Nodes of a time element, in the run for the error estimate and in the final run."""
 FIRST, LONGEST, SHORTEST, MOST = 0.05, 0.25, 1e-13, 2000
 """First, largest and smallest length of a time element in x, and largest number of elements."""
-TOLERANCE = 1e-11
+TOLERANCE = 1e-12
 """Largest ratio of the last coefficients of an element to the largest coefficient."""
 ROUNDING = 1e-11
 """Tested bound on the rounding errors of the results [1]. The contact time has the largest errors,
@@ -57,6 +57,8 @@ of at most 7e-12 in random scenes."""
 OWN = 1e3
 """Factor on the tolerance of the radius relative to its largest value in the element."""
 _ROUGH = 1e-3
+POWER = 4
+"""Mean power of x with which the radius grows at the onset."""
 A, V, Z, P, LOST = range(5)
 """Rows of a time element: contact radius, velocity, indentation, force, energy loss per x."""
 
@@ -171,7 +173,7 @@ def element(
     xs = x + length * rule.x
     by_x = length * rule.integral
     by_t = by_x * (ONSET * xs ** (ONSET - 1))
-    t, size = xs**ONSET, math.inf
+    t, size, found = xs**ONSET, math.inf, False
     for _ in range(NEWTON):
         a = start.radius + by_x @ y
         if not np.all(a > 0.0):
@@ -179,19 +181,18 @@ def element(
         at = problem.states(xs, a, y)
         v = start.velocity + problem.weight * (t - x**ONSET) - by_t @ at.P
         z = start.depth + by_t @ v
+        if found:
+            rows = np.array([a, v, z + problem.dent, at.P, at.lost]) @ rule.analysis.T
+            made = Element(x, length, rows, rule.analysis @ y)
+            return made, Point(float(a[-1]), float(v[-1]), float(z[-1]))
         P_y = at.P_a[:, None] * by_x + np.diag(at.P_y)
         slope = at.depth_a[:, None] * by_x + np.diag(at.depth_y) + by_t @ (by_t @ P_y)
         step = newton_step(slope / t[:, None], (z - at.depth) / t, by_x, a)
         if step is None:
             return None
         y, before, size = y + step[0], size, step[1]
-        if settled(size, before):
-            break
-    else:
-        return None
-    rows = np.array([a, v, z + problem.dent, at.P, at.lost]) @ rule.analysis.T
-    element = Element(x, length, rows, rule.analysis @ y)
-    return element, Point(float(a[-1]), float(v[-1]), float(z[-1]))
+        found = converged(size, before, 1)
+    return None
 
 
 ViscousElement = tuple[Element, Yielding | None]
@@ -276,24 +277,20 @@ def _next_branch(
 
 
 def _onset(problem: ViscousProblem, rule: Radau, length: float) -> Array:
-    """Return da/dx at the onset of contact, where delta = v0 t, by the implicit Euler method.
+    """Return da/dx at the onset of contact, where delta = v0 t.
 
-    The depth is a convex function of the radius. Newton's iteration therefore converges, first from
-    Hertz's radius, the largest possible one, then from the radius before, which grows like x^3.
+    The radius grows as a power of x between the third, by Hertz's law, and the fourth, if its rate
+    bends a thin plate. The depth is a convex function of the radius. Newton's iteration therefore
+    converges from Hertz's radius, the largest possible one.
     """
-    xs, a, last = length * rule.x, np.zeros(rule.x.size), 0.0
-    hertz = math.sqrt(problem.law.model.R * problem.depth) / problem.a
-    for index, x in enumerate(xs):
-        here, before = xs[index : index + 1], xs[index - 1] if index else 0.0
-        step, largest = x - before, hertz * x**3
-        radius = np.array([min(largest, last * (x / before) ** 3) if index else largest])
-        for _ in range(NEWTON):
-            at = problem.states(here, radius, (radius - last) / step)
-            move = (at.depth - x**ONSET) / (at.depth_a + at.depth_y / step)
-            radius = np.maximum(radius - move, 0.5 * radius)
-            if abs(float(move[0])) <= _ROUGH * float(radius[0]):
-                break
-        a[index] = last = float(radius[0])
+    x = length * rule.x
+    a = math.sqrt(problem.law.model.R * problem.depth) / problem.a * x**3
+    for _ in range(NEWTON):
+        at = problem.states(x, a, POWER * a / x)
+        move = (at.depth - x**ONSET) / (at.depth_a + at.depth_y * POWER / x)
+        a = np.maximum(a - move, 0.5 * a)
+        if np.all(np.abs(move) <= _ROUGH * a):
+            break
     return np.asarray(np.linalg.solve(length * rule.integral, a), dtype=np.float64)
 
 

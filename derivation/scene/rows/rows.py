@@ -1,10 +1,10 @@
 """Simulation of many scenes: columns of numbers and names in, columns of results out.
 
-Rows with the same names, such as those of materials, are computed together: elastic impacts on
-quasi-static plates in arrays. All other rows (a viscoelastic or plastic contact, plate inertia),
-invalid rows, and rows for which rounding could change a decision are simulated one by one. Each row
-is equal to the result of `simulate` for its scene: effects, status and reason are the same, and
-numbers to the last bit.
+Rows with the same names, such as those of materials, are computed together: elastic and plastic
+impacts on quasi-static plates in arrays. All other rows (a viscoelastic contact, plate inertia,
+weight in a plastic contact), invalid rows, and rows for which rounding could change a decision are
+simulated one by one. Each row is equal to the result of `simulate` for its scene: effects, status
+and reason are the same, and numbers to the last bit.
 """
 
 import math
@@ -16,18 +16,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from derivation.scene.contact_law.corrections import stretching
-from derivation.scene.contact_law.edge_curvature import curvature_errors
-from derivation.scene.contact_law.edge_remainder import edge_remainders
-from derivation.scene.contact_law.finite_sphere import finite_sphere_error, vibration_error
 from derivation.scene.contact_law.impact_errors import ImpactErrors
-from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import local_indentation, plate_times
 from derivation.scene.effects import EFFECTS
 from derivation.scene.errors import SceneError
 from derivation.scene.impact import selection_tolerance, simulate
 from derivation.scene.input.keys import takes_names, varied_key
 from derivation.scene.input.units import unit_warnings_of_rows
+from derivation.scene.model_errors import quasi_static_errors
 from derivation.scene.result import UNITS
 from derivation.scene.rows.columns import (
     Columns,
@@ -305,8 +301,8 @@ class _Block:
                 "max_indentation": impacts.max_indentation,
                 "max_force": impacts.max_force,
                 "max_contact_radius": impacts.max_contact_radius,
-                "restitution": np.ones(len(rows)),
-                "max_pressure": law.centre_pressure(a)[:, 0],
+                "restitution": impacts.restitution,
+                "max_pressure": np.minimum(law.centre_pressure(a), law.pressure_limit)[:, 0],
                 "max_tensile_stress": law.tensile_stresses(a, P, group.held)[:, 0],
             }
             known = np.all([np.isfinite(x) & (x > 0.0) for x in list(numbers.values())[:4]], axis=0)
@@ -315,7 +311,11 @@ class _Block:
             known &= bound <= rtol - ROUNDING
         depth = impacts.max_indentation[:, None]
         deflection = depth - local_indentation(law, a)
-        model_error, pressure_error = _model_errors(law, a, depth, deflection, outputs)
+        restitution = impacts.restitution[:, None]
+        with np.errstate(all="ignore"):
+            errors = quasi_static_errors(law, a, depth, deflection, restitution)
+        model_error = np.maximum.reduce([errors[name][:, 0] for name in outputs])
+        pressure_error = errors["max_contact_radius"][:, 0]
         known &= np.isfinite(model_error)
         which = np.flatnonzero(known)
         strength: Array | float | None = scene.plate.tensile_strength
@@ -324,13 +324,14 @@ class _Block:
         periods = plate_times(law.model).period if np.any(law.model.density) else 0.0
         times = impacts.contact_time[:, None]
         with np.errstate(all="ignore"):
-            change = vibration(law, numbers["max_tensile_stress"][:, None], P, times, periods, 1.0)
-            errors = static_errors(law, a, deflection, change, group.held)
+            stress = numbers["max_tensile_stress"][:, None]
+            change = vibration(law, stress, P, times, periods, restitution)
+            stress_errors = static_errors(law, a, deflection, change, group.held)
         numbers_and_errors = numbers | {
             "pressure_error": pressure_error
             + np.expm1(np.log1p(bound_with(on_pressure)) + 2.0 * np.log1p(on_pressure)),
             "stress_error": bound_with(omitted_on("max_force"))
-            + np.broadcast_to(errors, a.shape)[:, 0],
+            + np.broadcast_to(stress_errors, a.shape)[:, 0],
         }
         numbers_and_errors |= {
             f"{name}_error": bound_with(omitted_on(name)) for name in ImpactErrors._fields
@@ -347,23 +348,3 @@ class _Block:
         included = " ".join(effect.name for effect in EFFECTS if effect.name in law.effects)
         self.table.effects[indices] = included
         return group.rows[which]
-
-
-def _model_errors(
-    law: ContactLaw, a: Array, depth: Array, deflection: Array, outputs: tuple[str, ...]
-) -> tuple[Array, Array]:
-    """Return the model errors of some results, and of the contact radius, see `model_errors`."""
-    error = np.broadcast_to(stretching(law.model, deflection), a.shape)[:, 0]
-    pressed = np.zeros_like(error)
-    if law.other_edge:
-        edge = edge_remainders(law.model, a)[:, 0]
-        curvature, pressure = (errors[:, 0] for errors in curvature_errors(law, a))
-        with np.errstate(invalid="ignore"):  # infinite errors of rows without a result
-            edge, pressed = edge + curvature, pressure - curvature
-        error = edge + error
-    with np.errstate(all="ignore"):
-        restitution = error + vibration_error(law, a)[:, 0]
-        error = error + finite_sphere_error(law, a, depth)[:, 0]
-    if outputs == ("restitution",):
-        return restitution, error + pressed
-    return (error + pressed if "max_contact_radius" in outputs else error), error + pressed

@@ -1,5 +1,6 @@
 """Impacts of many scenes on quasi-static plates: the methods of `method_selection`, in arrays."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -9,7 +10,7 @@ from numpy.typing import NDArray
 from derivation.scene import kernels
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.numerics.quadrature import MORE_TIMES, NODES
-from derivation.scene.quasi_static import simple_laws
+from derivation.scene.quasi_static import simple_laws, yield_phases
 from derivation.scene.quasi_static.closed_form import bend_of, only_bends
 from derivation.scene.quasi_static.motion import closeness, largest_radii, results_at, settled
 from derivation.scene.selection.method_selection import rounding_of, whole_law
@@ -21,7 +22,9 @@ NEAR = 1e-9
 """Relative distance from a tolerance at which the row is simulated singly."""
 WELL_WITHIN = 0.9
 """Largest contact radius over the limit of the law for results from arrays."""
-Mask = NDArray[np.bool_]
+UNKNOWN = (np.nan,) * 7
+"""Results of a row to simulate singly."""
+Rows = NDArray[np.intp]
 
 
 @dataclass(frozen=True)
@@ -34,6 +37,8 @@ class Impacts:
         The results, in s, m, N and m.
     law, quadrature, rounding
         The parts of the error bound, as of `AchievedAccuracy` [1].
+    restitution
+        The restitution [1].
     """
 
     contact_time: Array
@@ -43,10 +48,11 @@ class Impacts:
     law: Array
     quadrature: Array
     rounding: Array
+    restitution: Array
 
-    def put(self, rows: Any, numbers: Any) -> None:
+    def put(self, rows: Any, numbers: Any, restitution: Any = 1.0) -> None:
         """Set the values of some rows."""
-        for field, values in zip(fields(self), numbers, strict=True):
+        for field, values in zip(fields(self), (*numbers, restitution), strict=True):
             getattr(self, field.name)[rows] = values
 
 
@@ -66,12 +72,14 @@ def impacts_of(law: ContactLaw, count: int, rest: Array | None) -> Impacts:
     impacts = Impacts(*(np.full(count, np.nan) for _ in fields(Impacts)))
     if law.of_paper:
         _by_papers_law(law, rest, impacts)
-    elif law.hertzian and not np.any(law.gravity):
+    elif law.hertzian and not (law.plastic or np.any(law.gravity)):
         _in_closed_form(law, impacts)
-    elif only_bends(law) and not np.any(law.gravity):
+    elif only_bends(law) and not (law.plastic or np.any(law.gravity)):
         _in_closed_form(law, impacts, bend_of(law))
+    elif law.plastic:
+        _in_blocks(law, impacts, _plastic)
     else:
-        _by_any_law(law, impacts)
+        _in_blocks(law, impacts, _elastic)
     return impacts
 
 
@@ -96,7 +104,7 @@ def _by_papers_law(law: ContactLaw, rest: Array | None, impacts: Impacts) -> Non
             good = bound <= rest[selected]
             impacts.put(selected[good], [part[good] for part in parts])
             near = np.abs(bound - rest[selected]) <= NEAR * rest[selected]  # rounding could decide
-            impacts.put(selected[near], [np.nan] * len(parts))
+            impacts.put(selected[near], UNKNOWN)
             left[selected[good | near]] = False
     for method, rows in (("coarse", left & coarse), ("full", left & ~coarse)):
         if rows.any():
@@ -106,7 +114,7 @@ def _by_papers_law(law: ContactLaw, rest: Array | None, impacts: Impacts) -> Non
             bounds = accuracy.quadrature.bound, accuracy.rounding.bound
             impacts.put(rows, (*values, 0.0, *bounds))
     beyond = left & ~(impacts.max_contact_radius < WELL_WITHIN * _limits(law, count))
-    impacts.put(beyond, [np.nan] * len(fields(impacts)))
+    impacts.put(beyond, UNKNOWN)
 
 
 def _limits(law: ContactLaw, count: int) -> Array:
@@ -130,30 +138,47 @@ def _in_closed_form(law: ContactLaw, impacts: Impacts, bend: Array | None = None
     impacts.put(known, (*(x[known] for x in one[:4]), 0.0, quadrature, one.rounding + rounding))
 
 
-def _by_any_law(law: ContactLaw, impacts: Impacts) -> None:
-    """Use the energy integral, like `motion.impact`, for a few rows at a time."""
+def _in_blocks(
+    law: ContactLaw, impacts: Impacts, run: Callable[[ContactLaw, Rows, Impacts], None]
+) -> None:
+    """Use a quadrature for a few rows at a time."""
     count = len(impacts.law)
     for start in range(0, count, TOGETHER):
         rows = np.arange(start, min(start + TOGETHER, count))
-        _together(law.take(rows), rows, impacts)
+        part = law.take(rows)
+        with np.errstate(all="ignore"):
+            run(part, rows, impacts)
+            cancelled = part.cancellation(impacts.max_contact_radius[rows, None])[:, 0]
+        impacts.rounding[rows] = rounding_of(law) + cancelled
 
 
-def _together(law: ContactLaw, left: NDArray[np.intp], impacts: Impacts) -> None:
-    """Double the number of nodes until each row has converged."""
-    whole, rows, a = law, left, None
+def _plastic(law: ContactLaw, rows: Rows, impacts: Impacts) -> None:
+    """Use the quadratures of `plastic.impact`; those of elastic contacts for rows without yield."""
+    (*results, _), error = yield_phases.impacts(law)
+    yielding = error[:, 0] <= yield_phases.ENOUGH
+    *numbers, restitution, quadrature = (column[yielding, 0] for column in (*results, error))
+    impacts.put(rows[yielding], (*numbers, 0.0, quadrature, 0.0), restitution)
+    if yielding.all():
+        return
+    law, rows = law.take(~yielding), rows[~yielding]
+    _elastic(yield_phases.without_plasticity(law), rows, impacts)
+    certain = impacts.max_contact_radius[rows] <= yield_phases.onset_in(law).a[:, 0]
+    impacts.put(rows[~certain], UNKNOWN)
+
+
+def _elastic(law: ContactLaw, rows: Rows, impacts: Impacts) -> None:
+    """Use the energy integral, like `motion.impact`: double the nodes until rows have converged."""
+    left, a = rows, None
     before = change = None
-    with np.errstate(all="ignore"):
-        for n, times in [(n, n) for n in NODES] + [(NODES[1], n) for n in MORE_TIMES]:
-            a = largest_radii(law, n, a, closeness(law))
-            after = np.hstack((*results_at(law, a, n, times), a))
-            if before is not None:
-                change = np.max(np.abs(after / before - 1.0), axis=1)
-                impacts.put(left, (*after.T, 0.0, change, 0.0))
-                going_on = change > settled(times)  # not where NaN
-                if not going_on.any():
-                    break
-                law, left = law.take(going_on), left[going_on]
-                a, after = a[going_on], after[going_on]
-            before = after
-        cancelled = whole.cancellation(impacts.max_contact_radius[rows, None])[:, 0]
-    impacts.rounding[rows] = rounding_of(whole) + cancelled
+    for n, times in [(n, n) for n in NODES] + [(NODES[1], n) for n in MORE_TIMES]:
+        a = largest_radii(law, n, a, closeness(law))
+        after = np.hstack((*results_at(law, a, n, times), a))
+        if before is not None:
+            change = np.max(np.abs(after / before - 1.0), axis=1)
+            impacts.put(left, (*after.T, 0.0, change, 0.0))
+            going_on = change > settled(times)  # not where NaN
+            if not going_on.any():
+                break
+            law, left = law.take(going_on), left[going_on]
+            a, after = a[going_on], after[going_on]
+        before = after

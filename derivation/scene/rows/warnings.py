@@ -28,6 +28,8 @@ from derivation.scene.contact_law.limits import (
     warnings_at,
 )
 from derivation.scene.contact_law.stress_limits import exceeds, pressure_warnings, stress_warnings
+from derivation.scene.contact_law.yield_warnings import WARNED, impact_warnings, risen_restitution
+from derivation.scene.contact_law.yielding import onset_radius
 from generated.arrays import Double as Array
 
 _ROUNDING = 1e-9
@@ -88,6 +90,9 @@ def _numbers(law: ContactLaw, results: Mapping[str, Array]) -> dict[str, Array]:
     times = plate_times(model) if np.any(model.density) else PlateTimes(0.0, 0.0, 0.0)
     columns |= times._asdict()
     known = {name: np.broadcast_to(x, (count, 1))[:, 0] for name, x in columns.items()}
+    known["over_onset"] = np.zeros(count)
+    if law.plastic:
+        known["over_onset"] = (a / onset_radius(law))[:, 0]
     known["correction"] = np.full(count, np.nan)
     if len(wide := np.flatnonzero(_non_hertzian(SimpleNamespace(**known)))):
         one: Any = SimpleNamespace(**{name: values[wide] for name, values in known.items()})
@@ -133,11 +138,21 @@ def _possible(law: ContactLaw, known: Mapping[str, Array]) -> tuple[Mask, ...]:
         less * one.m < scales.volume(one.R) * lightest,
         wide,
         moving & (one.density > 0.0),
-        exceeds(
-            one.max_pressure, less * kernels.YIELD_LIMIT * one.yield_stress, one.pressure_error
-        ),
+        _yielding(law, one),
         exceeds(one.max_tensile_stress, less * limit, one.stress_error),
     )
+
+
+def _yielding(law: ContactLaw, one: SimpleNamespace) -> Mask:
+    """Return the rows whose neglected yield, or whose pressure beyond the limit, may matter."""
+    less = 1.0 - _ROUNDING
+    if law.plastic:
+        rise = risen_restitution(np.maximum(one.over_onset, 1.0))
+        possible: Mask = rise > less * WARNED
+        return possible
+    limit = less * kernels.YIELD_LIMIT * one.yield_stress
+    neglected: Mask = exceeds(one.max_pressure, limit, one.pressure_error)
+    return neglected
 
 
 def _non_hertzian(one: SimpleNamespace) -> Mask:
@@ -165,6 +180,8 @@ def _texts(law: ContactLaw) -> tuple[Texts, ...]:
         return motion_warnings(one, one.contact_time, fraction, known=times, errors=errors)
 
     def yielding(one: Any) -> tuple[str, ...]:
+        if law.plastic:
+            return impact_warnings(one.over_onset)
         weaker = "sphere" if one.yield_stress < one.plate_yield_stress else "plate"
         limit = _given(one.yield_stress)
         return pressure_warnings(one.max_pressure, limit, body=weaker, error=one.pressure_error)

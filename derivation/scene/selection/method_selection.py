@@ -331,9 +331,9 @@ def rounding_of(law: ContactLaw) -> float:
 
         rounding += ROUNDING
     if law.plastic:
-        from derivation.scene.quasi_static.plastic import ROUNDING as STEPS
+        from derivation.scene.quasi_static import plastic, yield_phases
 
-        rounding += STEPS
+        rounding += plastic.ROUNDING if law.viscous else yield_phases.ROUNDING
     return rounding
 
 

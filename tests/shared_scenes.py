@@ -4,11 +4,12 @@ import json
 import random
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import derivation.scene
-from derivation.scene import read
+from derivation.scene import Result, load, read, simulate
 from derivation.scene.effects import BY_NAME
 from derivation.scene.model import Model
 
@@ -35,6 +36,12 @@ modes = 8
 _MORE = "inertia", "damping", "plasticity", "stretching"
 ALL = frozenset(name for name, e in BY_NAME.items() if e.selectable and name not in _MORE)
 """Every effect of a quasi-static, elastic law; the plate of `model` is simply supported."""
+
+
+@cache
+def result_of(example: Path) -> Result:
+    """Return the simulation of a scene file, which several tests need."""
+    return simulate(load(example))
 
 
 def model(**changes: Any) -> Model:

@@ -117,6 +117,7 @@ def test_model_error_covers_the_change_by_the_plate_radius() -> None:
     assert np.all(np.abs(one / other - 1.0) <= min(allowed, 2e-3))
 
 
+@pytest.mark.one_version
 def test_largest_radius_is_that_of_the_history() -> None:
     for given in ({}, {"yield_stress": 3e8}):
         result = impact(120, **given)
@@ -150,6 +151,7 @@ def slow(edge: str, inertia: bool, speed: float = 0.05) -> pc.Result:
     )
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize("edge", ["paper", "clamped", "simply-supported"])
 def test_slow_impact_has_the_static_radius(edge: str) -> None:
     """The static curvature alone would change the radius by 2 to 4 %."""
@@ -160,6 +162,7 @@ def test_slow_impact_has_the_static_radius(edge: str) -> None:
     assert abs(change) <= min(sum(errors), 1e-3)
 
 
+@pytest.mark.one_version
 def test_slow_impact_on_a_stretched_plate_has_the_static_radius_and_pressure() -> None:
     """Finite elements of finite strains have confirmed those of the static contact.
 

@@ -231,6 +231,7 @@ NEARLY_STATIC = [
 ]
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize("changes", NEARLY_STATIC)
 @pytest.mark.parametrize("eta", [1e-3, 1.0])
 def test_change_by_omitted_damping_is_within_its_bound(

@@ -224,6 +224,7 @@ def impact(nu: float, ratio: float) -> tuple[float, Array]:
     return speed, np.abs(np.array(values) - 1.0)
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize(("nu", "ratio"), [(0.0, 0.2), (0.3, 0.1), (0.3, 0.3), (0.48, 0.2)])
 def test_error_covers_impacts_of_a_sphere_that_vibrates(nu: float, ratio: float) -> None:
     speed, changes = impact(nu, ratio)
@@ -245,6 +246,7 @@ PANE: dict[str, Any] = {
 }  # fmt: skip
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize(
     ("radius", "thickness", "more"),
     [

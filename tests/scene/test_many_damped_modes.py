@@ -62,6 +62,7 @@ class _With:
         return getattr(contact_sequence, name)
 
 
+@pytest.mark.one_version
 def test_a_strongly_damped_plate_without_a_tolerance_is_within_its_bound() -> None:
     """Four times as many modes would halve the error and take five times as long."""
     result = simulate(read(PANE))

@@ -11,7 +11,7 @@ import shared_scenes
 from shared_scenes import EXAMPLES
 
 from derivation.cli import main
-from derivation.scene import Scene, SceneError, load, read, simulate
+from derivation.scene import Scene, SceneError, read, simulate
 from derivation.scene.impact import selected_effects
 from derivation.scene.output import map as map_
 from derivation.scene.result import Result
@@ -29,7 +29,7 @@ def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
 @cache
 def mapped(name: str) -> tuple[Result, map_.Grid]:
     """Return an example's result and its coarse map."""
-    result = simulate(load(EXAMPLES / f"{name}.toml"))
+    result = shared_scenes.result_of(EXAMPLES / f"{name}.toml")
     return result, map_.grid(result, result.effects.rtol)
 
 
@@ -51,6 +51,7 @@ def test_marker_agrees_with_explain(name: str) -> None:
             assert ratio == pytest.approx(effect.bound / result.effects.rtol, rel=2e-3)
 
 
+@pytest.mark.one_version
 @pytest.mark.usefixtures("coarse")
 @pytest.mark.parametrize("name", ["glass_pane", "pad", "ball_drop"])
 def test_selection_at_each_point_agrees_with_the_map(name: str) -> None:

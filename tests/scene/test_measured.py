@@ -169,6 +169,7 @@ def test_a_recommended_tolerance_is_met(
     assert result.dynamics.numbers == tuple(getattr(result, name) for name in OUTPUTS)
 
 
+@pytest.mark.one_version
 def test_a_measurement_is_more_accurate_than_the_results() -> None:
     """An earlier version gave it the tolerance of the results, which their error then exceeded."""
     scene = measured(restitution=0.2, solve_for="yield_stress", target="plate")

@@ -101,6 +101,7 @@ def test_references_are_computed_once(monkeypatch: pytest.MonkeyPatch, tmp_path:
     assert computed == [bounds.scene(number) for number in range(4)]
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize("eta", [1e-3, 0.1, 0.1666, 0.1667, 0.3, 0.53, 0.6, 1.0, 4.0, 50.0])
 def test_slope_of_the_law_is_within_its_bounds(eta: float) -> None:
     from derivation.plate.contact.oracle import balls as contact_balls

@@ -97,6 +97,7 @@ def test_rows_of_supported_plates_do_not_depend_on_rounding_errors_of_their_radi
     check(tables, {"plate.youngs_modulus": np.array([stiffest, stiffest, softest])})
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize(
     ("key", "values"),
     [

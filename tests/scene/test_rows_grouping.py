@@ -29,6 +29,7 @@ def on_glass(edge: str) -> Scene:
     })  # fmt: skip
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize("rtol", [None, 0.2, 1e-2, 1e-6])
 @pytest.mark.parametrize("scene", [load(PAPER), on_glass("simply-supported"), on_glass("clamped")])
 def test_groups_change_no_row(

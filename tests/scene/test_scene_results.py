@@ -49,6 +49,7 @@ def scene(**tables: Any) -> Any:
 # --- warnings of plates with inertia
 
 
+@pytest.mark.one_version
 def test_deflection_of_a_plate_with_inertia_is_that_of_its_history() -> None:
     """The largest deflection is found at any time, during contacts and after the last one."""
     result = simulate(scene())

@@ -117,6 +117,7 @@ def test_deep_contacts_tend_to_those_of_a_membrane(nu: float) -> None:
     assert 2.0 * ratios[1] - ratios[0] == pytest.approx(1.0, abs=0.02)
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize("edge", EDGES)
 def test_small_deflections_stiffen_by_the_closed_form(edge: str) -> None:
     """To first order in S = A w^2/H^2 a plate of stiffness k carries k w (1 + S)."""
@@ -131,6 +132,7 @@ def test_small_deflections_stiffen_by_the_closed_form(edge: str) -> None:
         assert (one.indentation - contact.indentation) / w == pytest.approx(size, rel=0.02)
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize("edge", EDGES)
 def test_stretching_begins_without_a_step(edge: str) -> None:
     """Below a stiffening of 1e-4 it is neglected; the model error includes that."""
@@ -155,6 +157,7 @@ def inverted(contacts: tuple[StaticContact, ...], name: str, scene: Any) -> list
     return [one.force for one in indent(scene, **{name: [getattr(c, name) for c in contacts]})]
 
 
+@pytest.mark.one_version
 @pytest.mark.parametrize(("edge", "yielding"), [*((edge, {}) for edge in EDGES), ("paper", YIELDS)])
 def test_each_quantity_gives_the_same_contact(edge: str, yielding: dict[str, float]) -> None:
     plain = tables(edge, 5e-4)

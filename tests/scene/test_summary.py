@@ -9,14 +9,13 @@ import sys
 import tomllib
 from collections.abc import Callable
 from dataclasses import replace
-from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from shared_scenes import EXAMPLES, PAPER, TWO_CONTACTS
+from shared_scenes import EXAMPLES, PAPER, TWO_CONTACTS, result_of
 
 from derivation.cli import main
 from derivation.engine.files import ROOT
@@ -38,11 +37,6 @@ NOTE_LINES = 6
 every_example = pytest.mark.parametrize(
     "example", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.stem
 )
-
-
-@lru_cache
-def result_of(example: Path) -> Result:
-    return simulate(load(example))
 
 
 def value_of(text: str, unit: str, plain: str) -> float:

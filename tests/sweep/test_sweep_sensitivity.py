@@ -86,6 +86,7 @@ def test_confidence_intervals_have_their_coverage(
     assert sum(map(bool, inside)) >= 17
 
 
+@pytest.mark.one_version
 def test_few_points_have_wide_intervals() -> None:
     """Bootstrap intervals alone contained 81 % of the indices with 4 points, 85 % with 8."""
     rng, weights = np.random.default_rng(0), np.array([1.0, 2.0])

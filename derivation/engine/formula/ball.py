@@ -23,6 +23,21 @@ class PrecisionError(ArithmeticError):
     """A ball did not become small enough: the value is zero, singular or out of range."""
 
 
+class DigitsError(PrecisionError):
+    """A value has too few correct digits.
+
+    Its message is written when it is shown, because printing the formula takes longer than its
+    evaluation, and most of these errors are caught.
+    """
+
+    def __init__(self, digits: int, what: object, bits: int) -> None:
+        super().__init__(digits, what, bits)
+
+    def __str__(self) -> str:
+        digits, what, bits = self.args
+        return f"no {digits} digits of {what!s:.200} within {bits} bits"
+
+
 @dataclass
 class LastPrecision:
     """The precision [bits] that the last of successive points required.
@@ -87,15 +102,18 @@ def evaluate(
     ------
     PrecisionError
         If 65536 bits are not sufficient; the value is then probably zero, or the point singular.
+        Also if a function has no real value there, as the logarithm of a negative number.
         With integrals, which take long, the largest precision is `MAX_BITS_OF_INTEGRALS`.
     """
-    return refine(
-        lambda: enclose(expression, {key: to_ball(value) for key, value in values.items()}),
-        digits,
-        expression,
-        _largest_precision(expression),
-        last,
-    )
+    tape, most = recorded(expression, tuple(values)), _largest_precision(expression)
+
+    def compute() -> flint.arb:
+        slots = tape.run([to_ball(value) for value in values.values()])
+        if slots[-1].is_nan() and tape.is_undefined(slots):
+            raise DigitsError(digits, expression, most)
+        return slots[-1]
+
+    return refine(compute, digits, expression, most, last)
 
 
 @cache
@@ -140,4 +158,4 @@ def refine(
                 last.bits = bits
             return ball
         bits *= 2
-    raise PrecisionError(f"no {digits} digits of {what!s:.200} within {most} bits")
+    raise DigitsError(digits, what, most)

@@ -195,6 +195,19 @@ def _product(first: arb, *factors: arb) -> arb:
     return math.prod(factors, start=first)
 
 
+def _square_root(x: arb) -> arb:
+    return x.sqrt()
+
+
+PARTIAL = frozenset(
+    (
+        _square_root,
+        *(FUNCTIONS[each][0] for each in (sp.log, log1p, sp.asin, sp.acos, sp.acosh, sp.atanh)),
+    )
+)
+"""Functions whose ball is NaN for an exact number, at any precision, if they have no real value."""
+
+
 def _product_slopes(_: arb, *factors: arb) -> tuple[arb, ...]:
     # Products of the others, not value/factor: a factor may be zero.
     return tuple(_product(*factors[:i], *factors[i + 1 :]) for i in range(len(factors)))
@@ -208,7 +221,7 @@ def _power(node: sp.Pow) -> Operation:
     if exponent == sp.Rational(1, 2):
         return Operation(
             (base,),
-            lambda x: x.sqrt(),
+            _square_root,
             lambda value, _: (1 / (2 * value),),
             lambda x: acb(x).sqrt(analytic=True),
         )

@@ -15,7 +15,7 @@ from typing import Any
 import flint
 import sympy as sp
 
-from derivation.engine.formula.operations import Operation, operation
+from derivation.engine.formula.operations import PARTIAL, Operation, operation
 
 Step = tuple[Operation, tuple[int, ...]]
 """An operation, and the slots of its operands."""
@@ -41,6 +41,13 @@ class Tape:
         for value, read in self._holomorphic_calls if holomorphic else self._calls:
             slots.append(value(*read(slots)))
         return slots
+
+    def is_undefined(self, slots: Sequence[flint.arb]) -> bool:
+        """Return whether an evaluation is NaN at any precision, as the logarithm of -1 is."""
+        for slot, (done, reads) in zip(slots[len(self.inputs) :], self.steps, strict=True):
+            if slot.is_nan():
+                return done.value in PARTIAL and all(slots[i].is_exact() for i in reads)
+        return False
 
     @cached_property
     def names(self) -> tuple[str, ...]:

@@ -9,14 +9,16 @@ import math
 import random
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TypeAlias
 
 import flint
 import numpy as np
 import sympy as sp
 
-from derivation.engine.formula.ball import PrecisionError, enclose, refine, to_ball
+from derivation.engine.formula.ball import PrecisionError, refine, to_ball
 from derivation.engine.formula.grid import domain_grid, inside, joint_points, towards_zeros
+from derivation.engine.formula.tape import Tape, recorded
 from derivation.engine.formula.ulp import ulp_error
 from derivation.engine.formula.vocabulary import Vocabulary
 from derivation.engine.rewrite.code_check import stated_error
@@ -104,8 +106,7 @@ def check_several(
     UnreachableError
         If its error stays within `ENOUGH` in no range.
     """
-    draw = random.Random(str(expression))
-    slopes = [expression.diff(variable) for variable in variables]
+    draw, exact = random.Random(str(expression)), _exact(expression, tuple(variables))
     worst: tuple[float, Point] = math.inf, ()
     for decade, rounds in ((DECADES[-1], 1), *((decade, ROUNDS) for decade in DECADES)):
         errors: dict[Point, float] = {}
@@ -113,9 +114,9 @@ def check_several(
             if words is None:
                 points = list(_points(draw, decade, len(variables)))
             else:
-                points = _points_inside(expression, variables, words, decade, number)
-                points = [point for point in points if within(*point)]
-            errors |= _errors(expression, slopes, variables, function, points, TESTED[share])
+                inside_all = _points_inside(exact, words, decade, number)
+                points = [point for point in inside_all if within(*point)]
+            errors |= _errors(exact, function, points, TESTED[share])
             worst = max(((error, point) for point, error in errors.items()), default=worst)
             if worst[0] > ENOUGH:
                 break
@@ -173,24 +174,81 @@ def _points(draw: random.Random, decade: int, count: int) -> Iterator[Point]:
                 yield tuple(point)
 
 
-def _points_inside(
-    expression: sp.Expr,
-    variables: Sequence[sp.Symbol],
-    words: Vocabulary,
-    decade: int,
-    number: int,
-) -> list[Point]:
-    """Return points inside the domains: random, next to their ends, and next to zeros."""
-    names, seed = [str(v) for v in variables], f"{expression}, round {number}"
+class _Exact:
+    """Exact values of a formula and its condition numbers at points, each computed once."""
+
+    def __init__(self, expression: sp.Expr, variables: tuple[sp.Symbol, ...]) -> None:
+        self.expression, self.variables = expression, variables
+        self.tape = _tape(expression, variables)
+        self.slopes = [_tape(expression.diff(variable), variables) for variable in variables]
+        self.values: dict[Point, flint.arb | None] = {}
+        self.sums: dict[Point, float] = {}
+
+    def value(self, point: Point) -> flint.arb | None:
+        """Return the value; None if there is none at the point, or none by ball arithmetic."""
+        if point not in self.values:
+            self.values[point] = _value(self.tape, point, _DIGITS)
+        return self.values[point]
+
+    def conditioning(self, point: Point) -> float:
+        """Return the sum of the condition numbers at a point with a value."""
+        if point not in self.sums:
+            total = 0.0
+            for slope, x in zip(self.slopes, point, strict=True):
+                steep = _value(slope, point, 3)
+                if steep is not None:
+                    with flint.ctx.workprec(64):
+                        total += float(abs(steep * to_ball(x) / self.values[point]).abs_upper())
+            self.sums[point] = total
+        return self.sums[point]
+
+    def sign(self, point: Point) -> int:
+        """Return the sign of the value; 0 without one."""
+        value = _value(self.tape, point, 3)
+        return 0 if value is None or value == 0 else 1 if value > 0 else -1
+
+
+@lru_cache(maxsize=4)
+def _exact(expression: sp.Expr, variables: tuple[sp.Symbol, ...]) -> _Exact:
+    """Return the exact values that the tests of all forms of a formula share."""
+    return _Exact(expression, variables)
+
+
+def _tape(expression: sp.Expr, variables: tuple[sp.Symbol, ...]) -> Tape | None:
+    """Return the tape of an expression; None for a function without ball arithmetic."""
+    try:
+        return recorded(expression, variables)
+    except NotImplementedError:
+        return None
+
+
+def _value(tape: Tape | None, point: Point, digits: int) -> flint.arb | None:
+    """Return the value of a tape; None if there is none at the point."""
+    if tape is None:
+        return None
+    at = [to_ball(x) for x in point]
+    try:
+        return refine(lambda: tape.run(at)[-1], digits, "a point", MOST_BITS)
+    except PrecisionError:
+        return None
+
+
+@lru_cache(maxsize=64)
+def _points_inside(exact: _Exact, words: Vocabulary, decade: int, number: int) -> list[Point]:
+    """Return points inside the domains: random, next to their ends, and next to zeros.
+
+    The tests of all forms of a formula use the same points, which take longer than the values.
+    """
+    names, expression = [str(v) for v in exact.variables], str(exact.expression)
+    seed = f"{expression}, round {number}"
 
     def sign(point: Mapping[str, float]) -> int:
-        value = _value(expression, {v: point[str(v)] for v in variables}, 3)
-        return 0 if value is None or value == 0 else 1 if value > 0 else -1
+        return exact.sign(tuple(point[name] for name in names))
 
     drawn = joint_points(seed, names, words, decade, JOINT)
     signs = [(point, sign(point)) for point in drawn[:FEW]]
     found: Iterable[Mapping[str, float]] = (
-        *domain_grid(str(expression), names, words, {}, seed),
+        *domain_grid(expression, names, words, {}, seed),
         *drawn,
         *(point for point in towards_zeros(signs, sign) if inside(words, point)),
     )
@@ -200,49 +258,21 @@ def _points_inside(
 
 
 def _errors(
-    expression: sp.Expr,
-    slopes: Sequence[sp.Expr],
-    variables: Sequence[sp.Symbol],
-    function: Function,
-    points: Sequence[Point],
-    allowed: float,
+    exact: _Exact, function: Function, points: Sequence[Point], allowed: float
 ) -> dict[Point, float]:
     """Return the errors at the points with a value [ULP, minus a part of the conditioning]."""
     with np.errstate(all="ignore"):
         got = function(*np.array(points).T).tolist()
     errors: dict[Point, float] = {}
     for point, computed in zip(points, got, strict=True):
-        at = dict(zip(variables, point, strict=True))
-        exact = _value(expression, at, _DIGITS)
-        if exact is None or not LEAST_VALUE < abs(exact) < LARGEST_VALUE:
+        value = exact.value(point)
+        if value is None or not LEAST_VALUE < abs(value) < LARGEST_VALUE:
             continue
-        error = ulp_error(computed, exact)
+        error = ulp_error(computed, value)
         if error > 0.5:
-            conditioning = _conditioning(slopes, at, exact)
+            conditioning = exact.conditioning(point)
             if conditioning > MOST_CONDITIONING:
                 continue
             error = max(0.0, error - allowed * conditioning)
         errors[point] = error
     return errors
-
-
-def _conditioning(
-    slopes: Sequence[sp.Expr], at: Mapping[sp.Symbol, float], exact: flint.arb
-) -> float:
-    """Return the sum of the condition numbers."""
-    total = 0.0
-    for slope, x in zip(slopes, at.values(), strict=True):
-        steep = _value(slope, at, 3)
-        if steep is not None:
-            with flint.ctx.workprec(64):
-                total += float(abs(steep * to_ball(x) / exact).abs_upper())
-    return total
-
-
-def _value(expression: sp.Expr, at: Mapping[sp.Symbol, float], digits: int) -> flint.arb | None:
-    """Return a value; None if there is none at the point, or none by ball arithmetic."""
-    exact = {variable: to_ball(x) for variable, x in at.items()}
-    try:
-        return refine(lambda: enclose(expression, exact), digits, "a point", MOST_BITS)
-    except (PrecisionError, NotImplementedError):
-        return None

@@ -30,7 +30,9 @@ def dynamic_impact_of(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
     problem, last = history.problem, history.contacts[-1].after
     energy = problem.m * problem.v0**2
     elements = [element for touching in history.contacts for element in _elements(touching)]
-    largest = {row: largest_of(elements, row) for row in (A, Z, P, C)}
+    largest = {row: largest_of(elements, row) for row in (A, Z, C)}
+    forces = [largest_of(_elements(touching), P) for touching in history.contacts]
+    largest[P] = max(forces)
     displacement = max(
         largest[Z], max(touching.before.displacement for touching in history.contacts)
     )
@@ -42,9 +44,9 @@ def dynamic_impact_of(law: ContactLaw, history: ImpactHistory) -> DynamicImpact:
     ripple, echo_error = echo_errors(
         law, history, problem.a * largest[A], problem.force * largest[P]
     )
-    with_earlier = zip(history.contacts, (None, *history.contacts[:-1]), strict=True)
+    with_earlier = zip(history.contacts, (None, *history.contacts[:-1]), forces, strict=True)
     inertia = InertiaDetails(
-        tuple(_contact_interval(problem, *pair) for pair in with_earlier),
+        tuple(_contact_interval(problem, *each) for each in with_earlier),
         problem.T * total,
         history.reason,
         history.remedy,
@@ -114,9 +116,17 @@ def _damped_octaves(problem: DynamicProblem, a: float) -> float:
 
 
 def _contact_interval(
-    problem: DynamicProblem, touching: ContactRun, earlier: ContactRun | None
+    problem: DynamicProblem, touching: ContactRun, earlier: ContactRun | None, force: float
 ) -> ContactInterval:
-    """Return a contact in SI units; `earlier` is the one before, if there is one."""
+    """Return a contact in SI units.
+
+    Parameters
+    ----------
+    earlier
+        The contact before, if there is one.
+    force
+        The largest force of the contact, in units of `DynamicProblem.force`.
+    """
     before, after = touching.before, touching.after
     lasted, speed = touching.end - touching.start, -before.separation_speed
     if earlier is not None:
@@ -129,7 +139,7 @@ def _contact_interval(
         problem.T * touching.start,
         problem.T * touching.end,
         problem.m * problem.v0 * (before.velocity - after.velocity + problem.weight * lasted),
-        problem.force * largest_of(_elements(touching), P),
+        problem.force * force,
         speed,
     )
 

@@ -1,10 +1,14 @@
 """Dimensions, hyperbolic form, interval evaluation, proofs, units and vocabulary."""
 
+from fractions import Fraction
+
 import flint
 import pytest
 import sympy as sp
+from sympy.codegen.cfunctions import log1p
 
-from derivation.engine.formula.ball import PrecisionError, evaluate
+from derivation.engine.formula import ball as ball_module
+from derivation.engine.formula.ball import Exact, PrecisionError, evaluate, refine, to_ball
 from derivation.engine.formula.dimension import LENGTH, STRESS, DimensionError, dimension, unit
 from derivation.engine.formula.hyperbolic import to_hyperbolic
 from derivation.engine.formula.parse_latex import parse_latex
@@ -84,8 +88,48 @@ def test_evaluation_raises_the_precision_until_cancellation_is_resolved() -> Non
 
 
 def test_evaluation_of_an_exact_zero_is_rejected() -> None:
-    with pytest.raises(PrecisionError):
+    with pytest.raises(PrecisionError, match="no 20 digits of sin"):
         evaluate(sp.sin(x) ** 2 + sp.cos(x) ** 2 - 1, {x: 0.5}, 20)
+
+
+def test_formula_is_not_printed_for_an_error_that_is_not_shown() -> None:
+    """Printing took longer than all evaluations of a formula."""
+
+    class Formula:
+        def __str__(self) -> str:
+            raise AssertionError
+
+    with pytest.raises(PrecisionError):
+        refine(flint.arb.nan, 20, Formula())
+
+
+@pytest.mark.parametrize(
+    "undefined",
+    [
+        sp.acosh(x), sp.log(-x), log1p(-2 * x), sp.sqrt(1 - 2 * x), sp.asin(2 * x), sp.acos(2 * x),
+        sp.atanh(2 * x),
+    ],
+)  # fmt: skip
+def test_precision_is_not_raised_at_a_point_without_a_real_value(
+    undefined: sp.Expr, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Logarithms with 65536 bits took half of the time in which a formula was rewritten."""
+    precisions = []
+
+    def recorded(number: Exact) -> flint.arb:
+        precisions.append(flint.ctx.prec)
+        return to_ball(number)
+
+    monkeypatch.setattr(ball_module, "to_ball", recorded)
+    with pytest.raises(PrecisionError, match="no 20 digits of"):
+        evaluate(undefined - sp.log(3 * x), {x: 0.75}, 20)
+    assert max(precisions) < 200
+
+
+def test_root_of_a_number_that_may_be_negative_is_evaluated_with_more_bits() -> None:
+    """With few bits, the ball of the number contains negative ones."""
+    value = evaluate(sp.sqrt((1 + x) - sp.cos(x)), {x: Fraction(1, 2**300)}, 20)
+    assert float(value) == 2.0**-150
 
 
 def test_zero_is_recognised_and_small_values_are_not() -> None:

@@ -68,8 +68,7 @@ class Result:
         Without plate inertia: error of the edge relative to the indentation, measured against a
         three-dimensional elastic solution; 0 for the paper's edge. With plate inertia: error of the
         requested outputs, measured against explicit finite-element simulations. In both cases the
-        estimated errors by stretching of the plate, which depends on the deflection, and by the
-        finite size of an elastic sphere are added.
+        errors by stretching of the plate and by the finite size of an elastic sphere are added.
     warnings
         Warnings about validity and accuracy.
     scene
@@ -356,10 +355,13 @@ class Result:
     def bound_of(self, name: str) -> float:
         """Return the bound on the relative error of a result [1], without its model error.
 
-        The tolerance need not apply to it. The bound is infinite if there is none. That of
-        `max_tensile_stress` is the one of the force; the rest is in `tensile_stress`.
+        It is infinite if there is none. That of `max_tensile_stress` is the one of the force.
         """
         return result_errors.bound_of(self, name)
+
+    def error_of(self, name: str) -> float:
+        """Return the relative error of a result by bound and model [1]; infinite if unknown."""
+        return result_errors.error_of(self, name)
 
     def digits_of_result(self, name: str) -> int:
         """Return the significant digits that bound and model error of a result support."""

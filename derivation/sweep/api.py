@@ -83,10 +83,11 @@ def sweep(
     Returns
     -------
     xarray.Dataset
-        Results over the dimensions of the grid, named as its keys, or over `sample`; with
-        `status` and `reason` of each point, `bound`, `model_error` and `effects`. With
-        `sensitivity`, also the indices over `result` and `key`. More than two million points are
-        not held in memory: the Dataset then reads blocks of the file `out` as Dask arrays.
+        Results over the dimensions of the grid, named as its keys, or over `sample`; with the
+        relative error of each, such as `max_force_error`, and with `status` and `reason` of each
+        point, `bound`, `model_error` and `effects`. With `sensitivity`, also the indices over
+        `result` and `key`. More than two million points are not held in memory: the Dataset then
+        reads blocks of the file `out` as Dask arrays.
 
     Raises
     ------

@@ -11,7 +11,7 @@ from derivation.scene.input.keys import described, takes_names, unit_of
 from derivation.scene.result import UNITS
 from derivation.scene.scene import outputs_of
 from derivation.sweep.plan import GridPlan
-from derivation.sweep.store import NUMBERS, TEXTS, Store
+from derivation.sweep.store import ERRORS, NUMBERS, TEXTS, Store
 from derivation.sweep.study import Study
 
 if TYPE_CHECKING:
@@ -22,6 +22,10 @@ MOST_IN_MEMORY = 2_000_000
 LABELS = {name: (name.replace("_", " "), unit) for name, unit in UNITS.items()} | {
     "bound": ("bound of the relative error", "1"),
     "model_error": ("largest relative error of the model", "1"),
+}
+LABELS |= {
+    error: (f"relative error of {name.replace('_', ' ')}, by bound and model", "1")
+    for name, error in ERRORS.items()
 }
 """Long name and unit of each number."""
 TEXT_LABELS = {

@@ -21,6 +21,7 @@ from derivation.scene.result import UNITS
 from derivation.scene.sweep import SYMBOLS
 from derivation.sweep.dataset import labels
 from derivation.sweep.plan import Array
+from derivation.sweep.store import ERRORS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -163,18 +164,17 @@ def _legend(made: "Figure", panel: "Axes", other: str) -> None:
 
 
 def _curves(axes: "Axes", data: "xr.Dataset", keys: Sequence[str], name: str) -> None:
-    """Draw a result over one key, with its error and gaps at points without a result.
+    """Draw a result over one key, with its error if it is known, and gaps without a result.
 
-    Results to which the error bound of the study does not apply have no error.
     A second key has names, each with its own curve or, in a sample, its own points.
     """
     axis, other = _roles(keys)
-    raw, error = data[name].values.ravel(), (data["bound"] + data["model_error"]).values.ravel()
-    bounded = name in data.attrs["outputs"].split()
+    raw, error = (data[one].values.ravel() for one in (name, ERRORS[name]))
+    bounded = np.isfinite(error)
     finite = np.isfinite(raw)
     y = np.full_like(raw, np.nan)
     y[finite], y_label = _result(raw[finite], name)
-    band = np.abs(y) * np.where(np.isfinite(error) & bounded, error, np.nan)
+    band = np.abs(y) * np.where(bounded, error, np.nan)
     given = {key: data[key].broadcast_like(data[name]).values.ravel() for key in keys}
     ticks = list(dict.fromkeys(given[axis].tolist())) if takes_names(axis) else []
     x, x_label = _key(given[axis], axis)
@@ -187,7 +187,7 @@ def _curves(axes: "Axes", data: "xr.Dataset", keys: Sequence[str], name: str) ->
         shift = 0.6 * ((number + 0.5) / len(curves) - 0.5) if ticks else 0.0
         points = x[chosen] + shift, y[chosen], band[chosen]
         color = _color(number, len(curves)) if other else BLUE
-        label = _label(curve) if other else "error: bound and model" if bounded else ""
+        label = _label(curve) if other else "error: bound and model" if bounded.any() else ""
         _draw(axes, points, color, label, bool(ticks) or (bool(other) and "sample" in data.dims))
     axes.set(xlabel=x_label, ylabel=y_label)
     if finite.any() and np.ptp(y[finite]) == 0.0:  # otherwise its error would fill the panel

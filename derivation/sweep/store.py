@@ -23,7 +23,9 @@ from derivation.sweep.study import Study
 FILE = re.compile(r"(\d+)-(\d+)-([0-9a-f]+)\.parquet")
 """File name of a batch: first point, the point after the last one, and hash of the points."""
 TEXTS = ("status", "reason", "effects")
-NUMBERS = (*UNITS, "bound", "model_error")
+ERRORS = {name: f"{name}_error" for name in UNITS}
+"""Name of the relative error of each result."""
+NUMBERS = (*UNITS, *ERRORS.values(), "bound", "model_error")
 
 
 @dataclass(frozen=True)
@@ -213,7 +215,8 @@ def to_parquet(rows: Rows) -> bytes:
     """Return results as the content of a Parquet file."""
     import pyarrow as pa
 
-    numbers = rows.results | {"bound": rows.bound, "model_error": rows.model_error}
+    numbers = rows.results | {ERRORS[name]: error for name, error in rows.errors.items()}
+    numbers |= {"bound": rows.bound, "model_error": rows.model_error}
     columns = {name: pa.array(numbers[name], pa.float64()) for name in NUMBERS}
     columns |= {name: pa.array(getattr(rows, name).tolist(), pa.string()) for name in TEXTS}
     return _parquet_content(pa.table(columns))

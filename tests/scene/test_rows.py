@@ -39,7 +39,8 @@ def check(scene: Scene, columns: Mapping[str, Array], rtol: float | None = None)
         if one is None:
             assert (solution.status[row], solution.reason[row]) == ("rejected", reason)
             assert solution.effects[row] == ""
-            assert all(np.isnan(values[row]) for values in solution.results.values())
+            columns_of_row = (*solution.results.values(), *solution.errors.values())
+            assert all(np.isnan(values[row]) for values in columns_of_row)
             continue
         assert solution.effects[row] == " ".join(one.effects.included)
         assert solution.status[row] == "finished"
@@ -48,6 +49,7 @@ def check(scene: Scene, columns: Mapping[str, Array], rtol: float | None = None)
         assert solution.bound[row] == one.accuracy.bound
         for name in UNITS:
             np.testing.assert_array_equal(solution.results[name][row], getattr(one, name), name)
+            np.testing.assert_array_equal(solution.errors[name][row], one.error_of(name), name)
     return solution
 
 

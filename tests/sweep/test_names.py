@@ -302,7 +302,7 @@ def test_names_are_labelled_points_or_curves() -> None:
 
 def test_an_unknown_error_is_not_drawn_as_zero() -> None:
     data = pc.sweep(STATIC, {"plate.material": ["steel", "PMMA"]})
-    data["bound"][1] = np.inf
+    data["bound"][1] = data["max_force_error"][1] = np.inf
     made = plots.figure(data, ["plate.material"], ["max_force"])
     [bars] = made.axes[0].containers[0].lines[2]
     assert [len(ends) for ends in bars.get_segments()] == [2, 0]

@@ -27,7 +27,14 @@ def rows(_: object, columns: dict[str, np.ndarray], *__: object) -> Rows:
     texts = [np.full(len(x), text, dtype=object) for text in ("", "hertz")]
     bound = np.full(len(x), 1e-6)
     status = np.full(len(x), "finished")
-    return Rows(dict(zip(UNITS, made, strict=True)), bound, 0 * bound, status, *texts)
+    return Rows(
+        dict(zip(UNITS, made, strict=True)),
+        dict.fromkeys(UNITS, bound),
+        bound,
+        0 * bound,
+        status,
+        *texts,
+    )
 
 
 def test_indices_of_known_functions(monkeypatch: pytest.MonkeyPatch) -> None:

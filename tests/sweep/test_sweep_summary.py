@@ -18,6 +18,7 @@ from derivation.scene.input.keys import varied
 from derivation.scene.quantity import up_to
 from derivation.scene.result import UNITS
 from derivation.scene.rows.rows import Rows
+from derivation.scene.scene import OUTPUTS
 from derivation.sweep import run
 from derivation.sweep.api import sweep
 from derivation.sweep.plots import figure
@@ -76,7 +77,15 @@ def test_missing_bounds_are_no_bounds_of_zero(
 ) -> None:  # fmt: skip
     one, none = np.ones(1), np.array([""], dtype=object)
     results = {name: one * bound if np.isnan(bound) else one for name in UNITS}
-    rows = Rows(results, one * bound, one * bound, np.array([status]), none, none)
+    rows = Rows(
+        results,
+        dict.fromkeys(UNITS, one * bound),
+        one * bound,
+        one * bound,
+        np.array([status]),
+        none,
+        none,
+    )
     monkeypatch.setattr(run, "solve", lambda *_: rows)
     path = tmp_path / "summary.json"
     assert main(["sweep", str(QUICK), "--vary", "impact.speed=1", "--json", str(path)]) == 0
@@ -106,12 +115,13 @@ def test_bound_is_that_of_the_outputs_of_the_scene() -> None:
     some = read(scene().to_json() | {"accuracy": accuracy})
     data = sweep(some, {"impact.speed": [0.5, 1.0]})
     assert data.attrs["outputs"] == "restitution"
-    known, unknown = (
-        figure(data, ["impact.speed"], [name]).axes[0].get_legend_handles_labels()[1]
-        for name in ("restitution", "max_force")
-    )
-    assert known == ["error: bound and model"]
-    assert not unknown
+    exact = sweep(scene(), {"impact.speed": [0.5, 1.0]}, rtol=1e-9)
+    for name in OUTPUTS:
+        assert (np.abs(data[name] / exact[name] - 1.0) <= data[f"{name}_error"]).all()
+    assert (data["max_force_error"] > 20.0 * data["restitution_error"]).all()
+    for name in ("restitution", "max_force"):
+        [axes] = figure(data, ["impact.speed"], [name]).axes
+        assert axes.get_legend_handles_labels()[1] == ["error: bound and model"]
     text = Summary(2, 2, {"finished": 2}, {}, 1e-3, 0.0, (), 0, None, ("restitution",)).to_text()
     assert text.endswith("Accuracy: relative error of restitution at most 1.0e-03")
 

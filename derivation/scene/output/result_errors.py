@@ -51,6 +51,23 @@ def bound_of(result: "Result", name: str) -> float:
     return accuracy.bound
 
 
+def error_of(result: "Result", name: str) -> float:
+    """Return the relative error of a result by its bound and by the model [1].
+
+    It is infinite if there is no bound, and for the stress under a static load if vibration of the
+    plate may change it.
+
+    Raises
+    ------
+    SceneError
+        If there is no such result.
+    """
+    bound = bound_of(result, name)
+    if name == "max_tensile_stress" and result.tensile_stress.static:
+        return math.inf
+    return _error_of(result, name, bound)
+
+
 def digits_of_result(result: "Result", name: str) -> int:
     """Return the significant digits that bound and model error of a result support.
 

@@ -17,13 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from derivation.scene.contact_law.impact_errors import ImpactErrors
-from derivation.scene.contact_law.limits import local_indentation, plate_times
 from derivation.scene.effects import EFFECTS
 from derivation.scene.errors import SceneError
 from derivation.scene.impact import selection_tolerance, simulate
 from derivation.scene.input.keys import takes_names, varied_key
 from derivation.scene.input.units import unit_warnings_of_rows
-from derivation.scene.model_errors import quasi_static_errors
+from derivation.scene.quantity import ONE_DIGIT
 from derivation.scene.result import UNITS
 from derivation.scene.rows.columns import (
     Columns,
@@ -34,12 +33,12 @@ from derivation.scene.rows.columns import (
     row_of,
     rows_by_names,
 )
+from derivation.scene.rows.row_errors import errors_of_rows
 from derivation.scene.rows.selection import Group, Rejected, selected
 from derivation.scene.rows.static_rows import impacts_of
 from derivation.scene.rows.warnings import warnings_of_rows
-from derivation.scene.scene import OUTPUTS, Scene, outputs_of, read
+from derivation.scene.scene import Scene, outputs_of, read
 from derivation.scene.selection.candidates import check_enabled
-from derivation.scene.tensile_stress import static_errors, vibration
 from generated.arrays import Double as Array
 
 FIRST, BLOCK = 2**11, 2**15
@@ -62,6 +61,9 @@ class Rows:
     results
         Columns by the names of `UNITS` (contact_time ... max_tensile_stress), in SI units; NaN
         without a result.
+    errors
+        Columns of relative errors by the same names, as of `Result.error_of` [1]; NaN without a
+        result.
     bound
         Bound on the relative error of each row [1]; NaN without a result.
     model_error
@@ -75,6 +77,7 @@ class Rows:
     """
 
     results: dict[str, NDArray[np.float64]]
+    errors: dict[str, NDArray[np.float64]]
     bound: NDArray[np.float64]
     model_error: NDArray[np.float64]
     status: NDArray[np.str_]
@@ -86,9 +89,13 @@ class Rows:
 
     def first(self, count: int) -> "Rows":
         """Return the first rows."""
-        results = {name: values[:count] for name, values in self.results.items()}
+        results, errors = (
+            {name: values[:count] for name, values in columns.items()}
+            for columns in (self.results, self.errors)
+        )
         return Rows(
             results,
+            errors,
             self.bound[:count],
             self.model_error[:count],
             self.status[:count],
@@ -174,11 +181,11 @@ def _groups(
 
 def _empty(count: int) -> Rows:
     """Return rows without results."""
-    results = {name: np.full(count, np.nan) for name in UNITS}
+    results, errors = ({name: np.full(count, np.nan) for name in UNITS} for _ in range(2))
     bound, model_error = np.full(count, np.nan), np.full(count, np.nan)
     status = np.full(count, "rejected", dtype="<U10")
     reason, effects = np.full(count, "", dtype=object), np.full(count, "", dtype=object)
-    return Rows(results, bound, model_error, status, reason, effects)
+    return Rows(results, errors, bound, model_error, status, reason, effects)
 
 
 @dataclass(frozen=True)
@@ -207,6 +214,7 @@ class _Block:
             result = simulate(read(self._tables(row)), rtol=self.rtol)
             included = " ".join(result.effects.included)
             numbers = {name: float(getattr(result, name)) for name in UNITS}
+            errors = {name: result.error_of(name) for name in UNITS if result.complete}
         except SceneError as error:
             table.reason[index] = str(error)
             return
@@ -219,7 +227,7 @@ class _Block:
         table.reason[index] = "; ".join(result.warnings)
         table.bound[index], table.model_error[index] = result.accuracy.bound, result.model_error
         for name, number in numbers.items():
-            table.results[name][index] = number
+            table.results[name][index], table.errors[name][index] = number, errors[name]
 
     def _add_unit_warnings(self, rows: NDArray[np.intp]) -> None:
         """Put the warnings about units in front of the reasons of rows."""
@@ -285,15 +293,6 @@ class _Block:
         with np.errstate(invalid="ignore"):  # without a bound on the omitted effects
             rest = None if rtol is None else (rtol - error) / (1.0 + error)
         impacts = impacts_of(law, len(rows), rest)
-
-        def bound_with(omitted: Array) -> Array:
-            parts = (omitted, impacts.law, impacts.quadrature, impacts.rounding)
-            return np.asarray(np.expm1(sum(np.log1p(part) for part in parts)))
-
-        def omitted_on(*names: str) -> Array:
-            return error if set(names) <= set(outputs) else group.error_on(names)
-
-        bound, on_pressure = bound_with(error), omitted_on(*OUTPUTS)
         a, P = impacts.max_contact_radius[:, None], impacts.max_force[:, None]
         with np.errstate(all="ignore"):
             numbers = {
@@ -307,43 +306,24 @@ class _Block:
             }
             known = np.all([np.isfinite(x) & (x > 0.0) for x in list(numbers.values())[:4]], axis=0)
             known &= np.broadcast_to(a < law.limit, a.shape)[:, 0]
+        errors = errors_of_rows(group, impacts, numbers, outputs)
+        # Rows with a larger bound have bounds for single results.
+        known &= np.isfinite(errors.model) & (errors.bound < ONE_DIGIT)
         if rtol is not None:  # other rows do not meet the tolerance, or too narrowly
-            known &= bound <= rtol - ROUNDING
-        depth = impacts.max_indentation[:, None]
-        deflection = depth - local_indentation(law, a)
-        restitution = impacts.restitution[:, None]
-        with np.errstate(all="ignore"):
-            errors = quasi_static_errors(law, a, depth, deflection, restitution)
-        model_error = np.maximum.reduce([errors[name][:, 0] for name in outputs])
-        pressure_error = errors["max_contact_radius"][:, 0]
-        known &= np.isfinite(model_error)
+            known &= errors.bound <= rtol - ROUNDING
         which = np.flatnonzero(known)
         strength: Array | float | None = scene.plate.tensile_strength
         if STRENGTH in self.columns:
             strength = self.columns[STRENGTH][rows]
-        periods = plate_times(law.model).period if np.any(law.model.density) else 0.0
-        times = impacts.contact_time[:, None]
-        with np.errstate(all="ignore"):
-            stress = numbers["max_tensile_stress"][:, None]
-            change = vibration(law, stress, P, times, periods, restitution)
-            stress_errors = static_errors(law, a, deflection, change, group.held)
-        numbers_and_errors = numbers | {
-            "pressure_error": pressure_error
-            + np.expm1(np.log1p(bound_with(on_pressure)) + 2.0 * np.log1p(on_pressure)),
-            "stress_error": bound_with(omitted_on("max_force"))
-            + np.broadcast_to(stress_errors, a.shape)[:, 0],
-        }
-        numbers_and_errors |= {
-            f"{name}_error": bound_with(omitted_on(name)) for name in ImpactErrors._fields
-        }
-        reasons = warnings_of_rows(law, numbers_and_errors, strength, which)
+        limited = {f"{name}_error": errors.bounds[name] for name in ImpactErrors._fields}
+        limited |= {"pressure_error": errors.pressure, "stress_error": errors.stress}
+        reasons = warnings_of_rows(law, numbers | limited, strength, which)
         indices = self.indices[rows[which]]
         for name, values in numbers.items():
             self.table.results[name][indices] = values[which]
-        self.table.bound[indices], self.table.model_error[indices] = (
-            bound[which],
-            model_error[which],
-        )
+            self.table.errors[name][indices] = errors.of_results[name][which]
+        self.table.bound[indices] = errors.bound[which]
+        self.table.model_error[indices] = errors.model[which]
         self.table.status[indices], self.table.reason[indices] = "finished", reasons
         included = " ".join(effect.name for effect in EFFECTS if effect.name in law.effects)
         self.table.effects[indices] = included

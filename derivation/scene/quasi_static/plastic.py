@@ -83,8 +83,8 @@ def _by_quadrature(law: ContactLaw) -> PlasticMotion | None:
 def by_time_elements(law: ContactLaw) -> PlasticMotion:
     """Return the impact by time elements, with weight if the law includes it.
 
-    Both runs have the same tolerance, and may differ by less than their errors; therefore the error
-    of the speed from the energy balance is also used, which is twice as large as it must be.
+    Both runs have the same tolerance, and may differ by less than their errors; therefore twice the
+    error of the speed by the energy balance is added.
     """
     problem = _problem(law)
     rough, fine = (_motion(problem, n, law) for n in STAGES)

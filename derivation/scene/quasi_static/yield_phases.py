@@ -236,7 +236,7 @@ def yielded(law: ContactLaw, n: int) -> YieldedImpacts:
     power = _fourth(known.x) * _power(elastic(law), onset.a * known.x)
     first = np.sum(known.weights * power, axis=-1, keepdims=True)
     pace = model.v0 * (model.R / onset.a / onset.a)
-    energy = 0.1875 * (model.m / law.modulus / onset.a) * (pace * pace)
+    energy = 0.1875 * (model.m / law.modulus / onset.a) * (pace * pace)  # over K a_y^5
     left = np.where(energy > first, energy - first, np.nan)
     more = _stretch(loading(law, onset), onset, left, limit, known)
     turning = _stretch(elastic(law), onset, left, limit, known)

@@ -11,7 +11,6 @@ For J1 the coefficient is 1 - 3/(4 x^2) and increases, the spacing decreases tow
 argument applies with reversed sign: the n-th zero lies in (n + 1/4) pi - (0, 1/8).
 """
 
-import math
 from functools import cache
 
 import flint
@@ -19,14 +18,8 @@ import flint
 WIDTH = flint.arb(flint.fmpq(1, 20))
 WIDTH_J1 = flint.arb(flint.fmpq(1, 8))
 _GUARD_BITS = 48
-_START_BITS, _STEP_BITS = 7, 4
-"""Correct bits of McMahon's first two terms, and bits that each step of Newton loses."""
-_MCMAHON = (
-    flint.fmpq(1), flint.fmpq(-124, 3), flint.fmpq(120928, 15), flint.fmpq(-401743168, 105)
-)  # fmt: skip
-"""Coefficients of the odd powers of 1/(8 left) in McMahon's expansion of a zero of J0."""
-_NEXT_BITS, _LARGE = 34, 10
-"""Bits of the next coefficient, with a margin; index from which all terms are used."""
+_START_BITS, _STEP_BITS = 16, 4
+"""Correct bits after Newton's first step from McMahon's terms, and bits that each step loses."""
 
 
 class ZeroError(ArithmeticError):
@@ -52,7 +45,7 @@ def j0_zero(index: int, bits: int) -> flint.arb:
     working = bits + _GUARD_BITS
     with flint.ctx.workprec(working):
         left = (index - flint.arb(1) / 4) * flint.arb.pi()
-        guess = _newton(*_mcmahon(index), working)
+        guess = _newton(left + 1 / (8 * left), working)
         radius = flint.arb(2) ** (-bits - 2)
         low, high = guess - radius, guess + radius
         if not (low > left and high < left + WIDTH):
@@ -104,35 +97,14 @@ def j1_at_zero(index: int, bits: int) -> flint.arb:
     return value
 
 
-def _mcmahon(index: int) -> tuple[flint.arb, int]:
-    """Return an approximation of the index-th zero of J0, and its number of correct bits.
-
-    McMahon's expansion is asymptotic: for a small index, more than two terms increase the error.
-    """
-    left = (index - flint.arb(1) / 4) * flint.arb.pi()
-    if index < _LARGE:
-        return left + 1 / (8 * left), _START_BITS
-    power, square = 1 / (8 * left), 1 / (8 * left) ** 2
-    start = left
-    for coefficient in _MCMAHON:
-        start += coefficient * power
-        power *= square
-    return start, int((2 * len(_MCMAHON) + 1) * math.log2(8.0 * float(left))) - _NEXT_BITS
-
-
-def _newton(start: flint.arb, correct: int, bits: int) -> flint.arb:
+def _newton(start: flint.arb, bits: int) -> flint.arb:
     """Apply Newton's iteration to midpoints, which gives a guess for the caller to certify.
 
     An error e becomes e^2/(2 x) or less, so that half of the precision is sufficient in the step
     before: all steps together take little more time than the last one.
-
-    Parameters
-    ----------
-    correct, bits
-        Numbers of correct bits of the start and of the guess.
     """
     precisions = [bits]
-    while precisions[-1] > 2 * correct:
+    while precisions[-1] > _START_BITS:
         precisions.append(precisions[-1] // 2 + _STEP_BITS)
     x = start.mid()
     for precision in reversed(precisions):

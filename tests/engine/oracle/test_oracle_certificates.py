@@ -78,16 +78,6 @@ def test_value_that_is_no_zero_of_j0_is_not_certified(
         zeros.j0_zero.__wrapped__(1, 60)
 
 
-def test_start_of_newton_has_the_stated_number_of_correct_bits() -> None:
-    """With two terms for all zeros, Newton's iteration took twice as long."""
-    for index in (*range(1, 40), 100, 1000, 10_000):
-        with flint.ctx.workprec(300):
-            start, correct = zeros._mcmahon(index)
-            exact = zeros.j0_zero(index, 200)
-            assert abs(start.mid() - exact) < arb(2) ** -correct, index
-            assert correct >= (60 if index >= 100 else 7)
-
-
 def test_value_that_is_no_zero_of_j1_is_not_certified(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(zeros.ZeroError, match="J1 does not change its sign"):
         zeros.j1_zero.__wrapped__(1, ZeroNewtonSteps(60))

@@ -45,11 +45,11 @@ from derivation.scene.quasi_static.viscous_law import (
 )
 from generated.arrays import Double as Array
 
-STAGES = 12, 16
+STAGES = 9, 12
 """Nodes of a time element, in the run for the error estimate and in the final run."""
 FIRST, LONGEST, SHORTEST, MOST = 0.05, 0.25, 1e-13, 2000
 """First, largest and smallest length of a time element in x, and largest number of elements."""
-TOLERANCE = 1e-12
+TOLERANCE = 1e-11
 """Largest ratio of the last coefficients of an element to the largest coefficient."""
 ROUNDING = 1e-11
 """Tested bound on the rounding errors of the results [1]. The contact time has the largest errors,
@@ -58,7 +58,7 @@ OWN = 1e3
 """Factor on the tolerance of the radius relative to its largest value in the element."""
 _ROUGH = 1e-3
 POWER = 4
-"""Mean power of x with which the radius grows at the onset."""
+"""Power of x with which the radius is assumed to grow at the onset, for a first guess."""
 A, V, Z, P, LOST = range(5)
 """Rows of a time element: contact radius, velocity, indentation, force, energy loss per x."""
 

@@ -246,12 +246,13 @@ def _parquet_table(content: bytes) -> Any:
 
 
 def _rows_in(path: Path) -> int:
-    """Return the number of rows of a Parquet file; 0 if it is damaged."""
+    """Return the number of rows of a Parquet file; 0 if it is damaged or lacks a column."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
     try:
-        return int(pq.read_metadata(path).num_rows)
+        known = pq.read_metadata(path)
+        return int(known.num_rows) if {*NUMBERS, *TEXTS} <= {*known.schema.names} else 0
     except pa.ArrowInvalid:
         return 0
 

@@ -67,3 +67,16 @@ def test_plots_show_the_error_of_each_result() -> None:
         heights = [np.ptp(path.vertices[:, 1]) for band in bands for path in band.get_paths()]
         assert any(heights) == bool(np.isfinite(data[f"{name}_error"]).any()), name
     assert np.isfinite(data["max_pressure_error"]).all()
+
+
+def test_batches_of_an_earlier_version_without_errors_are_computed_again(tmp_path: Path) -> None:
+    scene = pc.read(TABLES | {"effects": {"inertia": False}})
+    file = tmp_path / "points.csv"
+    pc.sweep(scene, {"impact.speed": SPEEDS}, out=file)
+    expected = file.read_text()
+    for path in (tmp_path / "points.csv.parts").glob("*.parquet"):
+        old = pd.read_parquet(path).drop(columns=[f"{name}_error" for name in UNITS])
+        old.to_parquet(path)
+    file.unlink()
+    pc.sweep(scene, {"impact.speed": SPEEDS}, out=file)
+    assert file.read_text() == expected

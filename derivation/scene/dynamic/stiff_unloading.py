@@ -4,14 +4,12 @@ With many modes such a contact may unload more stiffly than the short modes of t
 message names a number of modes only if the contact has a solution with it.
 """
 
-import math
 
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic.contact_sequence import impact_history
 from derivation.scene.dynamic.mode_count import branching, coarser, with_modes
 from derivation.scene.dynamic.results import dynamic_impact_of
 from derivation.scene.dynamic.runs import LOOSE, Budget, time_tolerance
-from derivation.scene.dynamic.stretched_shapes import with_enough_shapes
 from derivation.scene.dynamic.time_in_contact import nodes_for
 from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.errors import EndlessError, SceneError, StiffUnloadingError
@@ -29,7 +27,7 @@ def number_with_solution(law: ContactLaw, error: StiffUnloadingError) -> int:
     """
     count, budget = error.fewer, Budget(ENOUGH)
     while count >= FEWEST_MODES:
-        if _has_solution(with_modes(with_enough_shapes(law, math.inf), count), budget):
+        if _has_solution(with_modes(law, count), budget):
             return count
         count //= 2
     return 0

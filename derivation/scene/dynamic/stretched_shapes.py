@@ -1,15 +1,19 @@
 """The number of shapes that stretch the plate, and the error of the others.
 
 All shapes vibrate, but only the first ones stretch the middle plane: its forces decrease fast with
-the wave number. The error is estimated with few modes, because fast ones hardly change it.
+the wave number. The error is estimated with few modes, because fast ones hardly change it. With a
+tolerance that the error exceeds, more shapes stretch the plate.
 """
 
+import math
 from dataclasses import replace
+from typing import NamedTuple
 
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic.first_contact import IRREGULAR
 from derivation.scene.dynamic.mode_convergence import compare
-from derivation.scene.dynamic.mode_count import branching
+from derivation.scene.dynamic.mode_count import affordable, branching, finer
+from derivation.scene.dynamic.reach import Reach
 from derivation.scene.dynamic.results import UNKNOWN
 from derivation.scene.dynamic.runs import WORK, Budget, run_with, time_tolerance
 from derivation.scene.dynamic.time_in_contact import FEWER
@@ -18,8 +22,12 @@ from derivation.scene.effects.effect import Results
 from derivation.scene.errors import SceneError
 from derivation.scene.scene import OUTPUTS
 
-MORE, ACCURATE = 96, 0.05
-"""Number of shapes for a tolerance of at most this."""
+MORE, MOST, ACCURATE = 96, 192, 0.05
+"""Number of shapes for a tolerance of at most this, and largest number."""
+FEW = 128
+"""Number of modes of the second run up to which the largest number of shapes stretch the plate."""
+PART = 0.5
+"""Error of the omitted shapes over the tolerance above which more shapes stretch the plate."""
 LEFT = 0.4
 """Estimated error of the omitted shapes over the change since half as many. At least a third would
 be left if it decreased as the square of their number."""
@@ -41,39 +49,103 @@ def with_shapes(law: ContactLaw, shapes: int) -> ContactLaw:
     return replace(law, model=replace(model, inertia=replace(model.inertia, shapes=shapes)))
 
 
-def with_enough_shapes(law: ContactLaw, need: float) -> ContactLaw:
-    """Return a law in which enough shapes stretch the plate for an error of the results."""
-    return with_shapes(law, MORE) if law.stretches and need <= ACCURATE else law
+def with_many_shapes(law: ContactLaw, need: float) -> ContactLaw:
+    """Return a law in which many shapes stretch the plate if the results have a tolerance.
+
+    If the second run of the impact has few modes, usually all shapes do, so that no error of others
+    is to be estimated.
+
+    Parameters
+    ----------
+    need
+        Largest error with which the results are useful [1].
+    """
+    if not law.stretches or need > ACCURATE:
+        return law
+    return with_shapes(law, MOST if finer(law, affordable(law)) <= FEW else MORE)
+
+
+class EnoughShapes(NamedTuple):
+    """A law in which enough shapes stretch the plate.
+
+    Attributes
+    ----------
+    law
+        The law.
+    error
+        Estimated error of the other shapes, for each result [1]; None if it is not known yet.
+    """
+
+    law: ContactLaw
+    error: Results | None = None
+
+
+def enough_shapes(
+    law: ContactLaw, goal: float, reach: Reach, rough: DynamicImpact | None
+) -> EnoughShapes:
+    """Return a law in which so many shapes stretch the plate that the others hardly matter.
+
+    Parameters
+    ----------
+    goal, rough
+        As in `shape_error`.
+    reach
+        The tolerance of the impact.
+    """
+    if not law.stretches or math.isinf(reach.need) or law.model.inertia.shapes >= MOST:
+        return EnoughShapes(law)
+    error = shape_error(law, goal, rough)
+    if max(error[OUTPUTS.index(name)] for name in reach.outputs) <= PART * reach.need:
+        return EnoughShapes(law, error)
+    return enough_shapes(with_shapes(law, 2 * law.model.inertia.shapes), goal, reach, None)
 
 
 def with_shape_error(
-    law: ContactLaw, run: DynamicImpact, goal: float, rough: DynamicImpact | None = None
+    law: ContactLaw,
+    run: DynamicImpact,
+    goal: float,
+    rough: DynamicImpact | None = None,
+    error: Results | None = None,
 ) -> DynamicImpact:
     """Return a run with the estimated error of the shapes that do not stretch the plate.
+
+    Parameters
+    ----------
+    goal, rough
+        As in `shape_error`.
+    error
+        This error, if it is known.
+    """
+    if not law.stretches or not run.inertia.complete:
+        return run
+    if run.impact_history.problem.contact.modes.phi.size <= law.model.inertia.shapes:
+        return run  # the change with the number of modes includes it
+    error = error or shape_error(law, goal, rough)
+    return replace(run, inertia=replace(run.inertia, shape_error=error))
+
+
+def shape_error(law: ContactLaw, goal: float, rough: DynamicImpact | None = None) -> Results:
+    """Return the estimated error of the shapes that do not stretch the plate, for each result [1].
 
     The simulations with few modes are not charged to the budget of the impact.
 
     Parameters
     ----------
+    goal
+        Largest accepted relative change of the results with the number of modes [1].
     rough
         The run of the impact with the fewest modes, if it has been computed. It is one of those
         with few modes if it has no more than twice as many as shapes stretch the plate.
     """
-    shapes = law.model.inertia.shapes
-    if not law.stretches or not run.inertia.complete:
-        return run
-    if run.impact_history.problem.contact.modes.phi.size <= shapes:
-        return run  # the change with the number of modes includes it
-    lowest, count = branching(law, "A0"), shapes
+    lowest, count = branching(law, "A0"), law.model.inertia.shapes
     if rough:
-        count = rough.impact_history.problem.contact.modes.phi.size
-        if rough.law != lowest or not shapes <= count <= 2 * shapes:
-            rough, count = None, shapes
-    error = _error(lowest, count, goal, rough)
-    return replace(run, inertia=replace(run.inertia, shape_error=error))
+        few = rough.impact_history.problem.contact.modes.phi.size
+        if rough.law == lowest and count <= few <= 2 * count:
+            return _error(lowest, few, goal, rough)
+    return _error(lowest, count, goal)
 
 
-def _error(law: ContactLaw, count: int, goal: float, rough: DynamicImpact | None) -> Results:
+def _error(law: ContactLaw, count: int, goal: float, rough: DynamicImpact | None = None) -> Results:
     """Return the estimated relative error of each result [1].
 
     Parameters

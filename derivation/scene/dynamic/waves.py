@@ -40,7 +40,12 @@ from derivation.scene.dynamic.results import dynamic_impact_of
 from derivation.scene.dynamic.runs import LOOSE, WORK, Budget, time_tolerance
 from derivation.scene.dynamic.slow_modes import slow_impact
 from derivation.scene.dynamic.stiff_unloading import number_with_solution
-from derivation.scene.dynamic.stretched_shapes import with_enough_shapes, with_shape_error
+from derivation.scene.dynamic.stretched_shapes import (
+    EnoughShapes,
+    enough_shapes,
+    with_many_shapes,
+    with_shape_error,
+)
 from derivation.scene.dynamic.time_in_contact import FEWER, check_deflected, nodes_for, slow_count
 from derivation.scene.dynamic.wave_motion import DynamicImpact
 from derivation.scene.dynamic.wave_problem import problem_of
@@ -99,7 +104,7 @@ def _impact(
     if math.isfinite(need):
         check_resolving(law)
     timed = need if "contact_time" in outputs else math.inf
-    count, used = slow_count(law, time_tolerance(goal), timed), with_enough_shapes(law, need)
+    count, used = slow_count(law, time_tolerance(goal), timed), with_many_shapes(law, need)
     if not count:
         free = not (law.model.inertia.modes or law.model.inertia.infinite_plate)
         try:
@@ -159,17 +164,22 @@ def _refined(
     rough, coarse
         The runs with the fewest modes, and with still fewer, if there are any.
     """
+    enough = enough_shapes(law, goal, reach, rough)
+    if enough.law != law:
+        law, rough, coarse = enough.law, None, None
     run = Refinement(law, goal, reach, budget).impact(rough, coarse)
     while law.model.inertia.infinite_plate and wave_returned(run):
         law = wider(law, first, run)
-        run = Refinement(law, goal, reach, budget).impact()
-    found, need = with_shape_error(law, run, goal, rough), reach.need
+        run, enough = Refinement(law, goal, reach, budget).impact(), EnoughShapes(law)
+    found, need = with_shape_error(law, run, goal, rough, enough.error), reach.need
     by_shapes = max(found.inertia.shape_error[OUTPUTS.index(name)] for name in reach.outputs)
     if _misses(run, reach) or not _misses(found, reach) or by_shapes >= need:
         return found
     less = Refinement(law, goal, replace(reach, need=need - by_shapes), budget)
     return _better(
-        found, lambda: with_shape_error(law, less.impact(rough), goal, rough), reach.outputs
+        found,
+        lambda: with_shape_error(law, less.impact(rough), goal, rough, enough.error),
+        reach.outputs,
     )
 
 

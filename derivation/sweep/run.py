@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
-from importlib.metadata import version
 from typing import Any
 
 import numpy as np
@@ -20,13 +19,14 @@ from derivation.scene.scene import read
 from derivation.scene.sweep import unheard_interrupts
 from derivation.sweep.plan import Column
 from derivation.sweep.store import PartFile, Store, to_parquet
+from derivation.sweep.study import installed_version
 
-FIRST_BATCH, TRIED = 1, 1.0
+FIRST_BATCH, TRIED = 16, 1.0
 """Number of points of the first batch; run time [s] after which the remaining time is estimated.
 The first batch loads libraries, and small batches take longer for each point."""
 LARGEST_BATCH = 2**16
 """Largest number of points of a batch."""
-GROWTH = 8
+GROWTH = 16
 """Largest ratio of the sizes of successive batches."""
 BATCH_SECONDS = 3.0
 """Intended run time of a batch [s], which an interrupted run loses in each process. A batch that
@@ -249,7 +249,7 @@ def solve_batch(
     SceneError
         If this machine has another version of the program.
     """
-    installed = version("platecontact")
+    installed = installed_version()
     if installed != wanted:
         raise SceneError(
             f"sweep: expected version {wanted} of platecontact on every worker, got "

@@ -4,7 +4,7 @@ import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from importlib.metadata import version
 from typing import Any
 
@@ -12,6 +12,12 @@ import numpy as np
 
 from derivation.scene.scene import Scene
 from derivation.sweep.plan import Column, Plan
+
+
+@cache
+def installed_version() -> str:
+    """Return the version of the program, which is read from a file."""
+    return version("platecontact")
 
 
 @dataclass(frozen=True)
@@ -36,7 +42,7 @@ class Study:
     def base(self) -> dict[str, Any]:
         """Data common to all points: scene, tolerance and program version."""
         common = {"scene": self.scene.to_json(), "rtol": self.rtol}
-        return common | {"version": version("platecontact")}
+        return common | {"version": installed_version()}
 
     def to_json(self) -> dict[str, Any]:
         """Return scene, tolerance, program version and points as JSON data."""

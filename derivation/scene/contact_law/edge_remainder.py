@@ -135,11 +135,12 @@ def largest_neighbours(
     `parts` are the columns of the table that are added.
     """
     nu = np.round(model.poissons_ratio, _DIGITS)
-    axes, coordinates = _axes(), np.broadcast_arrays(eta, nu, a / model.b)
+    # Only the radii have an axis for the points of a scene; the search takes longer than the table.
+    axes, coordinates = _axes(), [np.asarray(x) for x in (eta, nu, a / model.b)]
     known, ends = coordinates[_NU] >= axes[_NU][0], []
     for name, axis, coordinate in zip(_KEYS, axes, coordinates, strict=True):
         if name != "nu":
-            known &= coordinate <= axis[-1]
+            known = known & (coordinate <= axis[-1])
         below = np.searchsorted(axis, coordinate, side="right") - 1
         above = np.searchsorted(axis, coordinate, side="left")
         ends.append([np.clip(end, 0, len(axis) - 1) for end in (below, above)])

@@ -4,7 +4,6 @@ With many modes such a contact may unload more stiffly than the short modes of t
 message names a number of modes only if the contact has a solution with it.
 """
 
-
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic.contact_sequence import impact_history
 from derivation.scene.dynamic.mode_count import branching, coarser, with_modes

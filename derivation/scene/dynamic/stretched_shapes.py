@@ -26,7 +26,7 @@ MORE, MOST, ACCURATE = 96, 192, 0.05
 """Number of shapes for a tolerance of at most this, and largest number."""
 FEW = 128
 """Number of modes of the second run up to which the largest number of shapes stretch the plate."""
-PART = 0.5
+PART = 0.75
 """Error of the omitted shapes over the tolerance above which more shapes stretch the plate."""
 LEFT = 0.4
 """Estimated error of the omitted shapes over the change since half as many. At least a third would
@@ -92,12 +92,19 @@ def enough_shapes(
     reach
         The tolerance of the impact.
     """
-    if not law.stretches or math.isinf(reach.need) or law.model.inertia.shapes >= MOST:
+    more = more_shapes(law)
+    if more is None or math.isinf(reach.need):
         return EnoughShapes(law)
     error = shape_error(law, goal, rough)
     if max(error[OUTPUTS.index(name)] for name in reach.outputs) <= PART * reach.need:
         return EnoughShapes(law, error)
-    return enough_shapes(with_shapes(law, 2 * law.model.inertia.shapes), goal, reach, None)
+    return enough_shapes(more, goal, reach, None)
+
+
+def more_shapes(law: ContactLaw) -> ContactLaw | None:
+    """Return a law in which twice as many shapes stretch the plate; None if there are no more."""
+    shapes = 2 * law.model.inertia.shapes
+    return with_shapes(law, shapes) if law.stretches and shapes <= MOST else None
 
 
 def with_shape_error(

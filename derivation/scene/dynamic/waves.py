@@ -43,6 +43,7 @@ from derivation.scene.dynamic.stiff_unloading import number_with_solution
 from derivation.scene.dynamic.stretched_shapes import (
     EnoughShapes,
     enough_shapes,
+    more_shapes,
     with_many_shapes,
     with_shape_error,
 )
@@ -171,11 +172,15 @@ def _refined(
     while law.model.inertia.infinite_plate and wave_returned(run):
         law = wider(law, first, run)
         run, enough = Refinement(law, goal, reach, budget).impact(), EnoughShapes(law)
-    found, need = with_shape_error(law, run, goal, rough, enough.error), reach.need
-    by_shapes = max(found.inertia.shape_error[OUTPUTS.index(name)] for name in reach.outputs)
-    if _misses(run, reach) or not _misses(found, reach) or by_shapes >= need:
+    found = with_shape_error(law, run, goal, rough, enough.error)
+    if _misses(run, reach) or not _misses(found, reach):
         return found
-    less = Refinement(law, goal, replace(reach, need=need - by_shapes), budget)
+    if more := more_shapes(law):
+        return _better(found, lambda: _refined(more, first, goal, reach, budget), reach.outputs)
+    by_shapes = max(found.inertia.shape_error[OUTPUTS.index(name)] for name in reach.outputs)
+    if by_shapes >= reach.need:
+        return found
+    less = Refinement(law, goal, replace(reach, need=reach.need - by_shapes), budget)
     return _better(
         found,
         lambda: with_shape_error(law, less.impact(rough), goal, rough, enough.error),

@@ -117,10 +117,10 @@ def coordinates(study: Study) -> dict[str, Any]:
 
 
 def column(table: Any, name: str) -> Any:
-    """Return a column of a table as an array of doubles, or of objects for texts."""
+    """Return a column of a table as a writable array of doubles, or of objects for texts."""
     if name in TEXTS:
         return np.concatenate([_texts(chunk) for chunk in table[name].chunks])
-    return table[name].to_numpy()
+    return np.require(table[name].to_numpy(), requirements="W")  # pyarrow's memory is read-only
 
 
 def _texts(chunk: Any) -> Any:

@@ -12,7 +12,7 @@ import xarray as xr
 from studies import QUICK, UNIFORM, journal, parts, scene
 
 from derivation.cli import main
-from derivation.sweep import plan
+from derivation.sweep import plan, run
 from derivation.sweep.store import open_store
 from derivation.sweep.study import Study
 
@@ -141,7 +141,10 @@ def test_an_output_in_use_is_rejected(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("size", [0, 100, -50])
-def test_a_damaged_batch_is_computed_again(tmp_path: Path, size: int) -> None:
+def test_a_damaged_batch_is_computed_again(
+    tmp_path: Path, size: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(run, "FIRST_BATCH", 1)  # so that there are several
     out = tmp_path / "rows.csv"
     pc.sweep(scene(), SPEEDS, out=out)
     once = out.read_bytes()

@@ -180,8 +180,10 @@ def _here(store: Store, queue: Queue, keep: Keep, workers: int) -> None:
         content, count, seconds = solve_batch(*_task(store, batch))
         keep(batch, content, count, seconds)
         spent, batches = spent + seconds, batches + 1
+        # A batch that ends early is slow even without the libraries that the first one loads.
+        known = batches > 1 or count < batch.count
         long = queue.left * queue.seconds_per_point > PARALLEL_FROM
-        if workers > 1 and batches > 1 and spent > TRIED and long:
+        if workers > 1 and known and spent > TRIED and long:
             return
 
 

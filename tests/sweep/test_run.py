@@ -197,6 +197,29 @@ def test_batches_take_about_the_requested_time() -> None:
     assert (done[20_000:] == 1).all()
 
 
+@pytest.mark.parametrize(("count", "batches"), [(3, 1), (run.FIRST_BATCH, 2)])
+def test_other_processes_start_after_a_slow_batch(
+    count: int, batches: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A first batch that ends early is slow; a complete one may only have loaded libraries."""
+    queue, kept = run.Queue([(0, 1000)], []), list[int]()
+
+    def solved(*_: object) -> tuple[bytes, int, float]:
+        return b"", count, 2.0 * run.TRIED
+
+    def keep(batch: run.Batch, _: bytes, count: int, seconds: float) -> None:
+        kept.append(count)
+        if count < batch.count:
+            queue.put_back(batch.split(count)[1])
+        queue.learn(count, seconds)
+
+    monkeypatch.setattr(run, "solve_batch", solved)
+    monkeypatch.setattr(run, "_task", lambda *_: ())
+    run._here(None, queue, keep, workers=2)  # type: ignore[arg-type]
+    assert len(kept) == batches
+    assert queue.left == 1000 - sum(kept)
+
+
 @contextmanager
 def taken_port(number: int) -> Iterator[None]:
     """Listen on a port, unless another program does."""

@@ -51,20 +51,19 @@ def _solved(systems: Array, values: Array) -> Array:
         return np.concatenate(each)
 
 
-def all_converged(sizes: Array, before: Array, order: int) -> Mask:
+def all_converged(sizes: Array, before: Array) -> Mask:
     """Return where the next step would be due to rounding, like `collocation.converged`.
+
+    The derivative is approximate.
 
     Parameters
     ----------
     sizes, before
         Sizes of the last steps and of those before them, NaN if there was none.
-    order
-        Order of convergence.
     """
     ratio = sizes / before
-    following = sizes * (ratio if order == 1 else ratio * ratio)
     settled = (sizes <= CLOSE) | ((sizes <= NEARLY) & (ratio > 0.1))
-    mask: Mask = settled | ((ratio < 1.0) & (following <= NEXT))
+    mask: Mask = settled | ((ratio < 1.0) & (sizes * ratio <= NEXT))
     return mask
 
 

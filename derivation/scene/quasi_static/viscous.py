@@ -154,10 +154,10 @@ def run(problem: ViscousProblem, n: int) -> Run:
         largest = np.maximum(state.scale, own)
         # At the end of contact the radius needs a small relative error, because it determines the
         # time.
-        unit = np.hstack((OWN * own[:, :V], largest[:, V:LOST]))
+        unit = largest[:, :LOST].copy()
+        unit[:, A] = OWN * own[:, A]
         error = (np.abs(made.rows[:, :LOST, -2:]).max(axis=-1) / unit).max(axis=-1)
-        with np.errstate(divide="ignore"):
-            change = 0.9 * np.exp(np.log(TOLERANCE / np.maximum(error, 1e-300)) / n)
+        change = 0.9 * np.exp(np.log(TOLERANCE / np.maximum(error, 1e-300)) / n)
         accepted = error <= TOLERANCE
         shorter = np.where(found, length * np.minimum(0.8, np.fmax(0.1, change)), 0.5 * length)
         longer = np.minimum(LONGEST, length * np.minimum(2.0, change))

@@ -111,10 +111,11 @@ class ViscousProblem:
 
         `delay` is the retardation time over dt/dx.
         """
-        force, depth, force_a, depth_a, force_aa = self.at(a)
+        force, depth, force_a, depth_a = self.at(a)
         P_y = delay * force_a
         late = P_y * y
-        P, P_a = force + late, force_a + delay * force_aa * y
+        # d^2 P_e/da^2 = (2/a) dP_e/da by Hertz's law, and approximately by other laws.
+        P, P_a = force + late, force_a + 2.0 * late / a
         if self.bending.table is None:
             return States(P, depth, late * depth_a * y, P_a, P_y, depth_a, np.zeros_like(P))
         (bent, static), (bent_P, static_P) = self.bending.at(np.array([P, force]))
@@ -260,7 +261,7 @@ def elements(problem: ViscousProblem, n: int, start: Times, y: Array) -> Element
                 break
             problem, now, left, a, z, *columns = _kept(~done, problem, now, left, a, z, *at)
             at = States(*columns)
-        now = _stepped(now, at, a, z, problem.curve.order)
+        now = _stepped(now, at, a, z)
         if not now.size.max() < np.inf:
             problem, now, left = _kept(now.size < np.inf, problem, now, left)
             if not left.size:
@@ -318,13 +319,13 @@ def _rate(x: Array) -> Array:
     return ONSET * (square * square * x)
 
 
-def _stepped(now: _Iteration, at: States, a: Array, z: Array, order: int) -> _Iteration:
+def _stepped(now: _Iteration, at: States, a: Array, z: Array) -> _Iteration:
     """Return the iteration after a step; its size is NaN where there is none."""
     force = _with_diagonal(at.P_a[:, :, None] * now.by_x, at.P_y)
     local = (at.depth_a / now.t)[:, :, None] * now.by_x
     system = _with_diagonal(local, at.depth_y / now.t) + now.twice @ force
     step, size = newton_steps(system, (z - at.depth) / now.t, now.by_x, a)
-    return now._replace(y=now.y + step, size=size, found=all_converged(size, now.size, order))
+    return now._replace(y=now.y + step, size=size, found=all_converged(size, now.size))
 
 
 def _with_diagonal(matrices: Array, diagonal: Array) -> Array:

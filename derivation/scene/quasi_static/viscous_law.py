@@ -34,28 +34,20 @@ class Units(NamedTuple):
 
 
 class CurvePoints(NamedTuple):
-    """Force P, indentation d, dP/da, dd/da and d^2P/da^2 at contact radii a."""
+    """Force P, indentation d, dP/da and dd/da at contact radii a."""
 
     force: Array
     depth: Array
     force_a: Array
     depth_a: Array
-    force_aa: Array
 
 
 @dataclass(frozen=True)
 class Curve:
-    """Force and indentation of the law as functions of the contact radius, in some units.
-
-    Attributes
-    ----------
-    order
-        Order of convergence of Newton's iteration: 1, because d^2P/da^2 is that of Hertz's law.
-    """
+    """Force and indentation of the law as functions of the contact radius, in some units."""
 
     law: ContactLaw
     units: Units
-    order = 1
 
     def at(self, a: Array) -> CurvePoints:
         """Return force and indentation at radii."""
@@ -63,13 +55,11 @@ class Curve:
         radius = unit.a * a
         shape = law.at(radius)
         slope = 2.0 * (radius / law.model.R) * shape.slope
-        force_a = law.stiffness(radius, shape) * slope * (unit.a / unit.force)
         return CurvePoints(
             law.force(radius, shape) / unit.force,
             law.indentation(radius, shape) / unit.depth,
-            force_a,
+            law.stiffness(radius, shape) * slope * (unit.a / unit.force),
             slope * (unit.a / unit.depth),
-            2.0 * force_a / a,
         )
 
     def take(self, index: Any) -> "Curve":
@@ -86,22 +76,18 @@ class TabulatedCurve:
     top
         Largest radius, in a column.
     table
-        Coefficients for each scene: columns for P/x^3, d/x^2, (dP/da)/x^2, (dd/da)/x and
-        (d^2P/da^2)/x.
+        Coefficients for each scene: columns for P/x^3, d/x^2, (dP/da)/x^2 and (dd/da)/x.
     """
 
     top: Array
     table: Array
-    order = 2
 
     def at(self, a: Array) -> CurvePoints:
         """Return force and indentation at radii; NaN above `top`."""
         x = a / self.top
-        force, depth, force_a, depth_a, force_aa = _values(self.table, x)
+        force, depth, force_a, depth_a = _values(self.table, x)
         square = x * x
-        return CurvePoints(
-            force * (square * x), depth * square, force_a * square, depth_a * x, force_aa * x
-        )
+        return CurvePoints(force * (square * x), depth * square, force_a * square, depth_a * x)
 
     def take(self, index: Any) -> "TabulatedCurve":
         """Return the curves of some of many scenes."""
@@ -151,12 +137,11 @@ def tables_of(law: ContactLaw, a: Array, units: Units) -> tuple[TabulatedCurve, 
     at, square = direct.at(top * x), x * x
     force = _coefficients(at.force / (square * x), degree)
     depth = _coefficients(at.depth / square, degree)
-    force_x, depth_x = 3.0 * force + _grown(force), 2.0 * depth + _grown(depth)
-    curvature = (2.0 * force_x + _grown(force_x)) / (top * top)
-    curve = TabulatedCurve(top, _table(force, depth, force_x / top, depth_x / top, curvature))
+    force_a, depth_a = (3.0 * force + _grown(force)) / top, (2.0 * depth + _grown(depth)) / top
+    curve = TabulatedCurve(top, _table(force, depth, force_a, depth_a))
     x = _knots(DEGREE)
     between = top * ((x[1:] + x[:-1]) / 2.0)
-    pairs = zip(curve.at(between)[:4], direct.at(between)[:4], strict=True)
+    pairs = zip(curve.at(between), direct.at(between), strict=True)
     errors = [np.max(np.abs(one / other - 1.0), axis=-1) for one, other in pairs]
     return curve, np.maximum.reduce(errors) <= FITTED
 

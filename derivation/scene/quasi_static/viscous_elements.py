@@ -31,6 +31,7 @@ from derivation.scene.quasi_static.viscous_law import (
     TabulatedCurve,
     Units,
     bending_of,
+    degrees_of,
     part_of,
     tables_of,
 )
@@ -92,7 +93,8 @@ class ViscousProblem:
         numbers = self.T, self.start, self.delay, self.weight
         parts: Any = (part_of(x, index) for x in numbers)
         units = Units(*(part_of(x, index) for x in self.units))
-        return ViscousProblem(self.curve.take(index), self.bending.take(index), units, *parts)
+        law = self.curve.take(index), self.bending.take(index)
+        return ViscousProblem(*law, units, *parts, yielding=self.yielding)
 
     def at(self, a: Array) -> CurvePoints:
         """Return the law at radii, with the depth added by yielding."""
@@ -150,11 +152,17 @@ def problems_of(
         T, np.sqrt(model.R * units.depth) / a, model.retardation_time / T,
         law.gravity * (T / model.v0),
     )  # fmt: skip
-    for known, of_law in ((accurate, curve), (~accurate, Curve(law, units))):
-        if known.any():
-            problem, rows = ViscousProblem(of_law, bending, units, *numbers), np.flatnonzero(known)
-            problem = problem if known.all() else problem.take(rows)
-            yield rows, replace(problem, yielding=yielding)
+    whole = ViscousProblem(curve, bending, units, *numbers, yielding=yielding)
+    degrees = np.where(accurate, degrees_of(curve, bending), 0)
+    for degree in np.unique(degrees).tolist():
+        rows = np.flatnonzero(degrees == degree)
+        problem = whole if len(rows) == len(degrees) else whole.take(rows)
+        if not degree:
+            of_law = Curve(law, units)
+            yield rows, replace(problem, curve=of_law.take(rows) if len(a) > 1 else of_law)
+            continue
+        tables = curve.take(rows).cut(degree), bending.take(rows).cut(degree)
+        yield rows, replace(problem, curve=tables[0], bending=tables[1])
 
 
 class Times(NamedTuple):

@@ -3,8 +3,7 @@
 Laws are those of one scene, or of many as columns.
 """
 
-from dataclasses import dataclass
-from functools import cache
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,12 +13,14 @@ from derivation.scene import kernels
 from derivation.scene.contact_law.law import ContactLaw, Shape
 from derivation.scene.effects.edge import MAX_A_OVER_B
 from derivation.scene.effects.effect import Numbers
-from derivation.scene.numerics.chebyshev import by_growth, chebyshev, points
+from derivation.scene.numerics.chebyshev import chebyshev, points
 from derivation.scene.numerics.quadrature import mapped
 from generated.arrays import Double as Array
 
-DEGREE, FITTED = 30, 1e-12
-"""Degree of the tables of the law, and the relative error up to which they are used."""
+DEGREES, FITTED = (3, 12, 30), 1e-12
+"""Degrees of the tables of the law, and the relative error up to which they are used."""
+NEGLIGIBLE = 1e-14
+"""Sum of coefficients over the first one with which they are rounding errors and are omitted [1]."""
 BEYOND = 2.0
 """Largest Hertz radius of the viscoelastic force over that of the elastic force."""
 Mask = NDArray[np.bool_]
@@ -93,21 +94,25 @@ class TabulatedCurve:
         """Return the curves of some of many scenes."""
         return TabulatedCurve(self.top[index], self.table[index])
 
-
-def _coefficients(values: Array, degree: int) -> Array:
-    """Return Chebyshev coefficients up to a degree of values at `_knots`."""
-    return mapped(points(2 * degree + 2, degree)[1], values)
-
-
-def _grown(coefficients: Array) -> Array:
-    """Return the Chebyshev coefficients of x df/dx."""
-    return mapped(_growth(coefficients.shape[-1]), coefficients)
+    def cut(self, degree: int) -> "TabulatedCurve":
+        """Return the curves by polynomials of a lower degree."""
+        return TabulatedCurve(self.top, _cut(self.table, degree))
 
 
-@cache
-def _growth(count: int) -> Array:
-    """Return the matrix of `_grown`."""
-    return by_growth(np.eye(count)) if count > 1 else np.zeros((1, 1))
+def _table(*values: Array) -> Array:
+    """Return Chebyshev coefficients of values at `_knots`, in a column for each of them."""
+    _, analysis = points(2 * DEGREES[-1], DEGREES[-1])
+    return np.stack([mapped(analysis, each) for each in values], axis=-1)
+
+
+def _cut(table: Array, degree: int) -> Array:
+    """Return the coefficients up to a degree."""
+    return np.ascontiguousarray(table[..., : degree + 1, :])
+
+
+def _knots() -> Array:
+    """Return Chebyshev points on [0, 1], twice as many as the degree."""
+    return points(2 * DEGREES[-1], DEGREES[-1])[0]
 
 
 def _values(table: Array, x: Array) -> tuple[Array, ...]:
@@ -116,30 +121,26 @@ def _values(table: Array, x: Array) -> tuple[Array, ...]:
     return tuple(values[..., column] for column in range(table.shape[-1]))
 
 
-def _table(*columns: Array) -> Array:
-    """Return coefficients as the columns of a table of each scene."""
-    return np.ascontiguousarray(np.stack(columns, axis=-1))
-
-
-def _knots(degree: int) -> Array:
-    """Return Chebyshev points on [0, 1], about twice as many as the degree."""
-    return points(2 * degree + 2, degree)[0]
+def degrees_of(curve: TabulatedCurve, bending: "ElasticBending") -> NDArray[np.intp]:
+    """Return the one of `DEGREES` that suffices for each scene."""
+    tables = [table for table in (curve.table, bending.table) if table is not None]
+    sizes = np.abs(np.concatenate(tables, axis=-1))
+    lowest = np.full(len(sizes), DEGREES[-1])
+    for degree in DEGREES[-2::-1]:
+        omitted = sizes[:, degree + 1 :].sum(axis=1)
+        lowest[(omitted <= NEGLIGIBLE * sizes[:, 0]).all(axis=-1)] = degree
+    return lowest
 
 
 def tables_of(law: ContactLaw, a: Array, units: Units) -> tuple[TabulatedCurve, Mask]:
     """Return the laws up to contact radii [m] in tables, and which are accurate enough.
 
-    Viscosity does not increase the radii, which are columns. Hertz's law needs no degree.
+    Viscosity does not increase the radii, which are columns.
     """
-    degree = 0 if law.hertzian else DEGREE
-    top, direct = np.minimum(1.001 * a, law.limit) / units.a, Curve(law, units)
-    x = _knots(degree)
+    top, x, direct = np.minimum(1.001 * a, law.limit) / units.a, _knots(), Curve(law, units)
     at, square = direct.at(top * x), x * x
-    force = _coefficients(at.force / (square * x), degree)
-    depth = _coefficients(at.depth / square, degree)
-    force_a, depth_a = (3.0 * force + _grown(force)) / top, (2.0 * depth + _grown(depth)) / top
-    curve = TabulatedCurve(top, _table(force, depth, force_a, depth_a))
-    x = _knots(DEGREE)
+    values = at.force / (square * x), at.depth / square, at.force_a / square, at.depth_a / x
+    curve = TabulatedCurve(top, _table(*values))
     between = top * ((x[1:] + x[:-1]) / 2.0)
     pairs = zip(curve.at(between), direct.at(between), strict=True)
     errors = [np.max(np.abs(one / other - 1.0), axis=-1) for one, other in pairs]
@@ -178,6 +179,12 @@ class ElasticBending:
             return self
         return ElasticBending(self.other_edge, part_of(self.top, index), self.table[index])
 
+    def cut(self, degree: int) -> "ElasticBending":
+        """Return the bending by polynomials of a lower degree."""
+        if self.table is None:
+            return self
+        return replace(self, table=_cut(self.table, degree))
+
 
 def part_of(numbers: Numbers, index: Any) -> Numbers:
     """Return the numbers of some of many scenes, or the same number of all scenes."""
@@ -197,13 +204,13 @@ def bending_of(
     some = bent.deflection(np.atleast_1d(a)).slope > 0.0
     if not some.any():
         return ElasticBending()
-    top, x = np.minimum(BEYOND * a, MAX_A_OVER_B * law.model.b), _knots(DEGREE)
+    top, x = np.minimum(BEYOND * a, MAX_A_OVER_B * law.model.b), _knots()
     radius = top * x
-    depth = radius * (radius / law.model.R) * bent.deflection(radius).depth
     one = np.ones_like(radius)
-    force, depth = law.force(radius, Shape(one, one, one, one)), depth / (1.0 + law.softness)
-    compliance = _coefficients((depth / units.depth) / (force / units.force), DEGREE)
-    table = _table(compliance, compliance + _grown(compliance) / 3.0)
+    force = law.force(radius, Shape(one, one, one, one)) * (1.0 + law.softness)
+    per_force = radius * (radius / law.model.R) / force * (units.force / units.depth)
+    plate = bent.deflection(radius)
+    table = _table(per_force * plate.depth, per_force * plate.slope * (2.0 / 3.0))
     largest = np.atleast_1d(top)
     one = np.ones_like(largest)
     highest = law.force(largest, Shape(one, one, one, one)) / units.force

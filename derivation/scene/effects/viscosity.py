@@ -15,6 +15,7 @@ from derivation.scene.effects.effect import (
 )
 from derivation.scene.model import Model
 from derivation.scene.numerics import columns
+from generated.arrays import Double as Array
 
 if TYPE_CHECKING:
     from derivation.scene.contact_law.law import ContactLaw
@@ -120,21 +121,16 @@ def inverse_restitution(viscous: Numbers) -> Numbers:
     return 1.0 + viscous * (one + two * viscous)
 
 
-def unlike_bodies_error(model: Model) -> Numbers:
+def unlike_bodies_error(model: Model) -> float:
     """Return the estimated model error by two bodies with different retardation times [1].
 
     The law has their mean, weighted with the compliances, which is correct to first order. In
     fact each body follows the force with its own delay.
     """
-    if not np.any(model.retardation_spread):
-        return 0.0
-    # Hertz's contact time, from x_v = (3/2) A_v/(m/K)^(2/5) v0^(1/5).
-    time = HERTZ_TIME * 1.5 * model.retardation_time / viscous_number(model)
-    ratio = model.retardation_spread / time
-    return UNLIKE * (ratio * ratio)
+    return float(_unlike_bodies_error(model))
 
 
-def later_end(model: Model, contact_time: Numbers) -> Numbers:
+def later_end(model: Model, contact_time: float) -> float:
     """Return the change of a contact's duration if each body has its own time, over the duration.
 
     A contact with the mean A_v of both times ends 3/2 A_v before an elastic one, while it is still
@@ -143,18 +139,32 @@ def later_end(model: Model, contact_time: Numbers) -> Numbers:
     retardation: by 0.67 A_v x^(4/3), x the spread of the times over A_v, for small x. The change is
     at most 3/2 A_v, because neither body can be in tension.
     """
+    return float(_later_end(model, contact_time))
+
+
+def unlike_bodies_on_static_plate(model: Model, contact_time: Array) -> tuple[Numbers, Array]:
+    """Return the model errors of results and of contact times on quasi-static plates [1]."""
+    size = _unlike_bodies_error(model)
+    return size, size + np.where(np.asarray(size) > 0.0, _later_end(model, contact_time), 0.0)
+
+
+def _unlike_bodies_error(model: Model) -> Numbers:
+    """Return `unlike_bodies_error` of one scene, or of many as a column."""
+    if not np.any(model.retardation_spread):
+        return 0.0
+    # Hertz's contact time, from x_v = (3/2) A_v/(m/K)^(2/5) v0^(1/5).
+    time = HERTZ_TIME * 1.5 * model.retardation_time / viscous_number(model)
+    ratio = model.retardation_spread / time
+    return UNLIKE * (ratio * ratio)
+
+
+def _later_end(model: Model, contact_time: Numbers) -> Numbers:
+    """Return `later_end` of one scene, or of many as a column."""
     if not np.any(model.retardation_spread):
         return 0.0
     x = model.retardation_spread / model.retardation_time
     change: Numbers = np.minimum(LATEST, END * (x * np.cbrt(x)))
     return change * model.retardation_time / contact_time
-
-
-def unlike_bodies_on_static_plate(model: Model, contact_time: Numbers) -> tuple[Numbers, Numbers]:
-    """Return the model errors of an impact on a quasi-static plate [1]: of all results, of time."""
-    size = unlike_bodies_error(model)
-    end = np.where(np.asarray(size) > 0.0, size + later_end(model, contact_time), 0.0)
-    return size, np.maximum(size, end)
 
 
 def viscous_number(model: Model) -> Numbers:

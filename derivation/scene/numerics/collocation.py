@@ -17,8 +17,8 @@ on a plate that bends."""
 NEWTON = 30
 """Largest number of steps of Newton's iteration."""
 CLOSE, NEARLY = 1e-15, 1e-12
-"""Relative steps of Newton's iteration that are due to rounding: any, and one that does not decrease
-[1]."""
+"""Relative steps of Newton's iteration that are due to rounding: in any case, and if they do not
+decrease [1]."""
 NEXT = 1e-14
 """Relative step of Newton's iteration that is due to rounding [1]."""
 _GROWTH = 3.0  # largest factor of the length from one element to the next

@@ -8,7 +8,7 @@ import math
 from functools import cache
 
 import numpy as np
-from numpy.polynomial.legendre import legder, legvander
+from numpy.polynomial.legendre import legder
 from numpy.typing import NDArray
 
 from derivation.scene.numerics.collocation import CLOSE, NEARLY, NEXT
@@ -117,8 +117,8 @@ def _slope(n: int) -> Array:
 @cache
 def _grid(n: int) -> tuple[Array, Array]:
     """Return positions with both ends, close enough for Newton's iteration, and the basis there."""
-    s = -np.cos(np.pi * np.arange(2 * n + 1) / (2 * n))
-    return s, legvander(s, n - 1)
+    s: Array = -np.cos(np.pi * np.arange(2 * n + 1) / (2 * n))
+    return s, _basis(s, n)
 
 
 def largest_values(coefficients: Array, known: Array) -> Array:
@@ -147,7 +147,8 @@ def _peaks(coefficients: Array, known: Array) -> Array:
     near = np.flatnonzero(turns & (top + 0.5 * (s[1 + len(s) // 2]) * steepest > known))
     if not near.size:
         return known
-    largest, at = np.maximum(known, top), at[near]
+    largest: Array = np.maximum(known, top)
+    at = at[near]
     coefficients, slope = coefficients[near], slope[near]
     low, high = s[np.maximum(at - 1, 0)], s[np.minimum(at + 1, len(s) - 1)]
     curvature, position = slopes_of(slope), s[at]

@@ -118,8 +118,11 @@ class _State:
     def keep(self, which: Mask) -> None:
         """Keep some of the scenes."""
         kept = np.flatnonzero(which)
-        self.problem, self.next = self.problem.take(kept), self.next.take(kept)
-        for name in ("index", "begun", "x", "length", "slope", "scale"):
+        self.index, self.next = self.index[kept], self.next.take(kept)
+        if not kept.size:
+            return
+        self.problem = self.problem.take(kept)
+        for name in ("begun", "x", "length", "slope", "scale"):
             setattr(self, name, getattr(self, name)[kept])
 
     def guess(self, n: int) -> Array:
@@ -139,8 +142,7 @@ def run(problem: ViscousProblem, n: int) -> Run:
     """Return the impacts by elements with n nodes, until the forces fall to zero."""
     result, state = Run(problem), _State(problem, n)
     for _ in range(MOST):
-        if (short := state.next.length < SHORTEST).any():
-            _fail(result, state, short, _unfinished)
+        _fail(result, state, state.next.length < SHORTEST, _unfinished)
         if not len(state.index):
             break
         now = state.next
@@ -185,9 +187,8 @@ def run(problem: ViscousProblem, n: int) -> Run:
         state.scale = np.where(accepted[:, None], largest, state.scale)
         state.begun |= accepted
         held = accepted & ~ended & (now.velocity < 0.0) & (state.next.velocity > 0.0)
-        if held.any():
-            _fail(result, state, held, _held)
-            ended = ended[~held]
+        _fail(result, state, held, _held)
+        ended = ended[~held]
         if ended.any():
             state.keep(~ended)
     _fail(result, state, np.ones(len(state.index), dtype=bool), _unfinished)
@@ -208,6 +209,8 @@ def _end(result: Run, index: NDArray[np.intp], x: Array, length: Array, rows: Ar
 
 def _fail(result: Run, state: _State, which: Mask, why: Callable[[float], SceneError]) -> None:
     """Remove scenes whose impacts have no result, with the reason at a time [s]."""
+    if not which.any():
+        return
     x = state.next.x[which]
     times = np.ravel(state.problem.T)[which] * (x * x * x) ** 2
     for index, time in zip(state.index[which].tolist(), times.tolist(), strict=True):

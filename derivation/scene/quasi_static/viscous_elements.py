@@ -93,8 +93,8 @@ class ViscousProblem:
         numbers = self.T, self.start, self.delay, self.weight
         parts: Any = (part_of(x, index) for x in numbers)
         units = Units(*(part_of(x, index) for x in self.units))
-        law = self.curve.take(index), self.bending.take(index)
-        return ViscousProblem(*law, units, *parts, yielding=self.yielding)
+        laws = self.curve.take(index), self.bending.take(index)
+        return replace(ViscousProblem(*laws, units, *parts), yielding=self.yielding)
 
     def at(self, a: Array) -> CurvePoints:
         """Return the law at radii, with the depth added by yielding."""
@@ -255,7 +255,8 @@ def elements(problem: ViscousProblem, n: int, start: Times, y: Array) -> Element
     for _ in range(NEWTON):
         a = now.radius + _times(now.by_x, now.y)
         if not a.min() > 0.0:
-            problem, now, left, a = _kept((a > 0.0).all(axis=-1), problem, now, left, a)
+            positive = np.asarray((a > 0.0).all(axis=-1))
+            problem, now, left, a = _kept(positive, problem, now, left, a)
             if not left.size:
                 break
         at = problem.states(now.delay, a, now.y)
@@ -277,12 +278,10 @@ def elements(problem: ViscousProblem, n: int, start: Times, y: Array) -> Element
     return made
 
 
-def _put(
-    made: Elements, index: NDArray[np.intp], values: Array, y: Array, depth: Array
-) -> None:
+def _put(made: Elements, index: NDArray[np.intp], values: Array, y: Array, depth: Array) -> None:
     """Set the elements of some scenes from values at the nodes, and the depth at the end."""
     analysis = radau(y.shape[-1]).analysis
-    made.found[index], made.end[:V + 1, index] = True, values[:, : V + 1, -1].T
+    made.found[index], made.end[: V + 1, index] = True, values[:, : V + 1, -1].T
     made.end[Z, index] = depth
     made.rows[index] = np.vecdot(analysis, values[:, :, None, :])
     made.slope[index] = np.vecdot(analysis, y[:, None, :])

@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from derivation.scene import kernels
 from derivation.scene.contact_law.law import ContactLaw, Shape
 from derivation.scene.effects.edge import MAX_A_OVER_B
 from derivation.scene.effects.effect import Numbers
@@ -20,7 +19,7 @@ from generated.arrays import Double as Array
 DEGREES, FITTED = (3, 12, 30), 1e-12
 """Degrees of the tables of the law, and the relative error up to which they are used."""
 NEGLIGIBLE = 1e-14
-"""Sum of coefficients over the first one with which they are rounding errors and are omitted [1]."""
+"""Sum of coefficients, over the first one, that are due to rounding and are omitted [1]."""
 BEYOND = 2.0
 """Largest Hertz radius of the viscoelastic force over that of the elastic force."""
 Mask = NDArray[np.bool_]
@@ -32,6 +31,9 @@ class Units(NamedTuple):
     a: Numbers
     force: Numbers
     depth: Numbers
+
+
+SI = Units(1.0, 1.0, 1.0)
 
 
 class CurvePoints(NamedTuple):
@@ -191,9 +193,7 @@ def part_of(numbers: Numbers, index: Any) -> Numbers:
     return numbers[index] if np.ndim(numbers) else numbers  # type: ignore[index]
 
 
-def bending_of(
-    law: ContactLaw, a: Numbers, units: Units = Units(1.0, 1.0, 1.0)
-) -> ElasticBending:
+def bending_of(law: ContactLaw, a: Numbers, units: Units = SI) -> ElasticBending:
     """Return elastic bending with the edge, up to contact radii [m], in some units.
 
     There is none if the edge of a thick plate cancels bending.

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from derivation.scene.numerics.collocation import CLOSE, NEARLY, NEXT
 from generated.arrays import Double as Array
 
-PEAK_STEPS, ZERO_STEPS = 4, 60
+PEAK_STEPS, ZERO_STEPS = 6, 60
 """Numbers of steps of Newton's iteration for a largest value, and for a zero."""
 Mask = NDArray[np.bool_]
 
@@ -117,7 +117,7 @@ def _slope(n: int) -> Array:
 @cache
 def _grid(n: int) -> tuple[Array, Array]:
     """Return positions with both ends, close enough for Newton's iteration, and the basis there."""
-    s: Array = -np.cos(np.pi * np.arange(2 * n + 1) / (2 * n))
+    s: Array = -np.cos(np.pi * np.arange(4 * n + 1) / (4 * n))
     return s, _basis(s, n)
 
 
@@ -154,7 +154,8 @@ def _peaks(coefficients: Array, known: Array) -> Array:
     curvature, position = slopes_of(slope), s[at]
     for _ in range(PEAK_STEPS):
         rate, bent = values_at(slope, position), values_at(curvature, position)
-        step = np.divide(rate, bent, np.zeros_like(rate), where=bent < 0.0)
+        uphill = -0.25 * np.copysign(high - low, rate)
+        step = np.divide(rate, bent, uphill, where=bent < 0.0)
         position = np.clip(position - step, low, high)
     largest[near] = np.maximum(largest[near], values_at(coefficients, position))
     return largest

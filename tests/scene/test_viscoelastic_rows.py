@@ -119,7 +119,9 @@ def test_rows_without_converging_elements_do_not_change_others(
     assert 0 < finished.sum() < 4
     assert all("the time integration failed" in reason for reason in some.reason[~finished])
     for name in UNITS:
-        np.testing.assert_array_equal(some.results[name][finished], solution.results[name][finished])
+        np.testing.assert_array_equal(
+            some.results[name][finished], solution.results[name][finished]
+        )
 
 
 @pytest.mark.one_version
@@ -160,6 +162,28 @@ def test_stated_errors_cover_the_change_by_more_nodes(
         for name in OUTPUTS:
             change = np.abs(fine.results[name] / here.results[name] - 1.0)
             assert np.all(change <= here.bound)
+
+
+def test_stated_errors_cover_impacts_that_the_weight_accelerates(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The sphere becomes 400 times faster, so that a small speed of rebound has a larger error."""
+    scene = read({
+        "sphere": {"radius": 0.0425195, "material": "steel"},
+        "plate": {"radius": 1.18988, "half_thickness": 0.00496429, "youngs_modulus": 1.0351499e8,
+                  "poissons_ratio": 0.436818, "retardation_time": 5.82436e-6},
+        "impact": {"speed": 0.014, "gravity": 53.1},
+        "effects": {"spherical_profile": False, "non_hertzian_pressure": False,
+                    "viscosity": True, "inertia": False},
+    })  # fmt: skip
+    speeds = {"impact.speed": np.linspace(0.012, 0.016, 12)}
+    here, changes = solve(scene, speeds), []
+    for stages in (9, 13), (9, 14):
+        monkeypatch.setattr(viscous, "STAGES", stages)
+        changes.append(solve(scene, speeds).results["restitution"] / here.results["restitution"])
+    change = np.abs(np.array(changes) - 1.0)
+    assert change.max() > 1e-10
+    assert np.all(change <= here.bound)
 
 
 def test_elastic_bending_is_that_of_the_law_at_the_radius_of_the_force() -> None:

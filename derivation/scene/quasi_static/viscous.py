@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.yielding import Yielding, yielding_of
 from derivation.scene.dynamic.yield_events import UncutError, branch_after, cut
-from derivation.scene.effects.effect import Numbers
 from derivation.scene.errors import HeldError, SceneError
 from derivation.scene.numerics.collocation import ONSET, Element, radau
 from derivation.scene.numerics.many_elements import (
@@ -40,6 +39,7 @@ from derivation.scene.quasi_static.viscous_elements import (
     onset,
     problems_of,
 )
+from derivation.scene.quasi_static.viscous_law import number_of
 from generated.arrays import Double as Array
 
 STAGES = 9, 12
@@ -73,6 +73,8 @@ class Run:
         Radius, velocity and depth there, in the units of the problem, shape (scenes, 3).
     largest
         Largest radius, depth and force, shape (scenes, 3).
+    fastest
+        Largest velocity, shape (scenes,).
     errors
         Why an impact has no result, by scene.
     elements
@@ -83,13 +85,14 @@ class Run:
     end: Array = field(init=False)
     last: Array = field(init=False)
     largest: Array = field(init=False)
+    fastest: Array = field(init=False)
     errors: dict[int, SceneError] = field(default_factory=dict)
     elements: list[ViscousElement] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         count = len(self.problem.T)
         self.end, self.last = np.full(count, np.nan), np.full((count, 3), np.nan)
-        self.largest = np.full((count, 3), -np.inf)
+        self.largest, self.fastest = np.full((count, 3), -np.inf), np.ones(count)
 
     @property
     def numbers(self) -> tuple[Array, ...]:
@@ -179,6 +182,7 @@ def run(problem: ViscousProblem, n: int) -> Run:
         result.largest[put] = largest_values(rows, result.largest[put])
         ended = accepted & (made.rows[:, P].sum(axis=-1) <= 0.0)
         if ended.any():
+            result.fastest[state.index[ended]] = largest[ended, V]
             _end(result, state.index[ended], now.x[ended], width[ended], made.rows[ended])
         end = Times(now.x + width, longer, *made.end)
         state.next = Times(
@@ -238,7 +242,7 @@ def _next_branch(state: _State, n: int, made: Elements) -> tuple[Elements, Array
     The problem of the state is then that after the event.
     """
     problem, now = state.problem, state.next
-    branch, unit = problem.yielding, _number(problem.units.a)
+    branch, unit = problem.yielding, number_of(problem.units.a)
     assert branch is not None
 
     def shorter(length: float, guess: Array) -> tuple[Elements, Element] | None:
@@ -254,7 +258,7 @@ def _next_branch(state: _State, n: int, made: Elements) -> tuple[Elements, Array
     radius, (_, force, depth) = made.end[A].item(), problem.units
     pressed = problem.curve.at(np.array([[radius]])).force * force
     after = branch_after(branch, unit * radius, pressed.item())
-    made.end[Z] -= (after.dent - branch.dent) / _number(depth)
+    made.end[Z] -= (after.dent - branch.dent) / number_of(depth)
     state.problem, state.slope = replace(problem, yielding=after), made.slope
     state.length = np.array([element.length])
     return made, state.length
@@ -273,7 +277,7 @@ class ViscousMotion(Motion):
         assert problem is not None
         x = (np.minimum(times, self.contact_time) / problem.T.item()) ** (1.0 / ONSET)
         starts = [element.x for element, _ in self.elements]
-        unit, force, depth = map(_number, problem.units)
+        unit, force, depth = map(number_of, problem.units)
         place = np.searchsorted(starts, x, side="right") - 1
         rows = np.empty((LOST + 1, x.size))
         for index in sorted(set(place.tolist())):
@@ -301,8 +305,7 @@ def impact(law: ContactLaw) -> ViscousMotion:
     a, T = (np.array([[unit]]) for unit in (elastic.max_contact_radius, elastic.contact_time))
     [(_, problem)] = problems_of(law, a, T, yielding_of(law))
     rough, fine = (_checked(run(problem, n)) for n in STAGES)
-    quadrature = _change(fine.numbers, rough.numbers).item()
-    return _motion(fine, law, quadrature)
+    return _motion(fine, law, _errors(fine, rough).item())
 
 
 def impacts(law: ContactLaw, a: Array, T: Array) -> tuple[Array, ...]:
@@ -319,16 +322,21 @@ def impacts(law: ContactLaw, a: Array, T: Array) -> tuple[Array, ...]:
     """
     found = np.full((6, *a.shape), np.nan)
     for rows, problem in problems_of(law, a, T):
-        rough, fine = (run(problem, n).numbers for n in STAGES)
-        found[:, rows] = *fine, _change(fine, rough)
+        rough, fine = (run(problem, n) for n in STAGES)
+        found[:, rows] = *fine.numbers, _errors(fine, rough)
     sound = (found > 0.0).all(axis=0) & np.isfinite(found).all(axis=0)
     return tuple(np.where(sound, column, np.nan) for column in found)
 
 
-def _change(fine: tuple[Array, ...], rough: tuple[Array, ...]) -> Array:
-    """Return the largest relative change of the results by more nodes [1]."""
-    pairs = zip(fine, rough, strict=True)
-    return np.asarray(np.maximum.reduce([np.abs(new / old - 1.0) for new, old in pairs]))
+def _errors(fine: Run, rough: Run) -> Array:
+    """Return the largest relative errors of the results by the elements [1].
+
+    It is the change by more nodes and, since both runs have the same tolerance, the error of the
+    velocity, relative to the largest one; the weight may accelerate the sphere.
+    """
+    pairs = zip(fine.numbers, rough.numbers, strict=True)
+    change = np.maximum.reduce([np.abs(new / old - 1.0) for new, old in pairs])
+    return np.asarray(change + TOLERANCE * (fine.fastest[:, None] / fine.numbers[-1] - 1.0))
 
 
 def _checked(result: Run) -> Run:
@@ -355,7 +363,7 @@ def _motion(result: Run, law: ContactLaw, quadrature: float) -> ViscousMotion:
     energy = law.model.m * law.model.v0 * law.model.v0
     energy_balance = EnergyBalance(
         initial_kinetic=0.5 * energy,
-        gravity_work=energy * _number(problem.weight) * z,
+        gravity_work=energy * number_of(problem.weight) * z,
         rebound_kinetic=0.5 * energy * restitution**2,
         viscous_loss=energy * sum(_lost(one, result.end.item()) for one, _ in result.elements),
         unrecovered_elastic=energy * _left(problem, a),
@@ -388,8 +396,3 @@ def _left(problem: ViscousProblem, a: float) -> float:
     point = problem.at(a * x[None])
     slope = point.depth_a - problem.bending.at(point.force)[1] * point.force_a
     return a * float(weights @ (point.force * slope)[0])
-
-
-def _number(x: Numbers) -> float:
-    """Return the number of a single scene."""
-    return float(np.asarray(x).item())

@@ -193,6 +193,11 @@ def part_of(numbers: Numbers, index: Any) -> Numbers:
     return numbers[index] if np.ndim(numbers) else numbers  # type: ignore[index]
 
 
+def number_of(numbers: Numbers) -> float:
+    """Return the number of a single scene."""
+    return float(np.asarray(numbers).item())
+
+
 def bending_of(law: ContactLaw, a: Numbers, units: Units = SI) -> ElasticBending:
     """Return elastic bending with the edge, up to contact radii [m], in some units.
 

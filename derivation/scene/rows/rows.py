@@ -2,8 +2,9 @@
 
 Rows with the same names, such as those of materials, are computed together: impacts on quasi-static
 plates in arrays. All other rows (plate inertia, a plastic contact that is viscoelastic or has
-weight), invalid rows, and rows for which rounding could change a decision are simulated one by one. Each row is equal to the result of `simulate` for its scene: effects, status
-and reason are the same, and numbers to the last bit.
+weight), invalid rows, and rows for which rounding could change a decision are simulated one by one.
+Each row is equal to the result of `simulate` for its scene: effects, status and reason are the
+same, and numbers to the last bit.
 """
 
 import math

@@ -331,12 +331,12 @@ def impacts(law: ContactLaw, a: Array, T: Array) -> tuple[Array, ...]:
 def _errors(fine: Run, rough: Run) -> Array:
     """Return the largest relative errors of the results by the elements [1].
 
-    It is the change by more nodes and, since both runs have the same tolerance, the error of the
-    velocity, relative to the largest one; the weight may accelerate the sphere.
+    It is the change by more nodes and, since both runs have the same tolerance, which is relative
+    to the largest velocity, the error by an increase of the velocity by the weight.
     """
     pairs = zip(fine.numbers, rough.numbers, strict=True)
     change = np.maximum.reduce([np.abs(new / old - 1.0) for new, old in pairs])
-    return np.asarray(change + TOLERANCE * (fine.fastest[:, None] / fine.numbers[-1] - 1.0))
+    return np.asarray(change + TOLERANCE * (fine.fastest[:, None] - 1.0) / fine.numbers[-1])
 
 
 def _checked(result: Run) -> Run:

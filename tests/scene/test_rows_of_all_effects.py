@@ -37,7 +37,7 @@ def sometimes(draw: st.DrawFn, table: dict[str, Any], key: str, low: float, high
 
 @st.composite
 def tables(draw: st.DrawFn) -> dict[str, dict[str, Any]]:
-    """Draw a scene of an impact on a quasi-static plate; its contact may yield."""
+    """Draw an impact on a quasi-static plate, whose contact may yield or be viscoelastic."""
     R = draw(log_uniform(1e-3, 5e-2))
     b = R * draw(log_uniform(2.0, 100.0))
     sphere: dict[str, Any] = {"radius": R, "material": "steel"}
@@ -53,6 +53,7 @@ def tables(draw: st.DrawFn) -> dict[str, dict[str, Any]]:
     sometimes(draw, plate, "tensile_strength", 1e6, 1e10)
     pane = {"youngs_modulus": draw(log_uniform(1e8, 2e11)), "density": 2400.0}
     pane["poissons_ratio"] = draw(st.floats(-0.2, 0.49))
+    sometimes(draw, pane, "retardation_time", 1e-7, 1e-4)
     impact = {"speed": draw(log_uniform(1e-3, 3.0))}
     sometimes(draw, impact, "gravity", 1.0, 1e3)
     choice = st.sampled_from(["auto", "auto", "auto", True, False])
@@ -60,6 +61,8 @@ def tables(draw: st.DrawFn) -> dict[str, dict[str, Any]]:
     effects["non_hertzian_pressure"] = draw(st.sampled_from(["auto", "auto", True, False, False]))
     if "yield_stress" in sphere:
         effects["plasticity"] = draw(choice)
+    if "retardation_time" in pane:
+        effects["viscosity"] = draw(choice)
     return {
         "sphere": sphere, "plate": plate, "impact": impact, "effects": effects,
         "materials": {"pane": pane},

@@ -32,8 +32,9 @@ from derivation.scene.dynamic.time_element import P
 from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.effects import WHOLE_PLATE
 from derivation.scene.model import InertiaSettings, Model, model_of
+from derivation.scene.numerics.collocation import radau
 from derivation.scene.output import animation
-from derivation.scene.quasi_static import motion, viscous
+from derivation.scene.quasi_static import motion, viscous, viscous_elements
 from derivation.scene.scene import IncompleteError
 from derivation.scene.selection.achieved_accuracy import AchievedAccuracy, Part
 from generated.back_face import back_face_stress
@@ -323,11 +324,13 @@ def test_element_that_cannot_be_shortened_is_kept(monkeypatch: pytest.MonkeyPatc
 def test_initial_guess_with_nan_does_not_converge() -> None:
     result = viscous.impact(ContactLaw(replace(BALL, retardation_time=1e-5), HERTZ | {"viscosity"}))
     assert result.problem is not None
-    start, n = viscous.Point(0.0, 1.0, 0.0), 8
-    guess = viscous._onset(result.problem, viscous.radau(n), 1e-3)
-    assert viscous.element(result.problem, n, 0.0, 1e-3, start, guess) is not None
+    n, none = 8, np.zeros(1)
+    start = viscous_elements.Times(none, np.full(1, 1e-3), none, np.ones(1), none)
+    guess = viscous_elements.onset(result.problem, radau(n), start.length)
+    assert viscous_elements.elements(result.problem, n, start, guess).found.item()
     with np.errstate(all="ignore"):
-        assert viscous.element(result.problem, n, 0.0, 1e-3, start, guess * 1e200) is None
+        made = viscous_elements.elements(result.problem, n, start, guess * 1e200)
+    assert not made.found.item()
 
 
 # --- physics

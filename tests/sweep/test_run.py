@@ -24,6 +24,7 @@ from studies import QUICK, begin, counts, journal, parts, scene
 
 from derivation.cli import main
 from derivation.engine.files import ROOT
+from derivation.scene import read
 from derivation.sweep import run
 
 POINTS = 40
@@ -243,14 +244,17 @@ def test_processes_keep_freed_memory_beside_another_study(monkeypatch: pytest.Mo
 
 
 def test_slow_batches_are_divided(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    # The first points need no viscosity and are computed in arrays, the last ones one by one.
+    # All points yield. The first ones need no viscosity and are computed in arrays, the last ones
+    # one by one.
     vary = {"plate.retardation_time": "1e-12:1e-4:20:log"}
-    pc.sweep(scene(), vary, out=tmp_path / "whole.csv")
+    tables = scene().to_json()
+    yielding = read(tables | {"plate": tables["plate"] | {"yield_stress": 1e7}})
+    pc.sweep(yielding, vary, out=tmp_path / "whole.csv")
     monkeypatch.setattr(run, "BATCH_SECONDS", 0.0)
     monkeypatch.setattr(run, "FIRST_BATCH", 20)
     monkeypatch.setattr(run.Queue, "learn", lambda *_: None)
     out = tmp_path / "divided.csv"
-    study = pc.sweep(scene(), vary, out=out)
+    study = pc.sweep(yielding, vary, out=out)
     assert (journal(out, 20) == 1).all()
     assert (counts(out, 20) == 1).all()
     effects = study["effects"].values.astype(str)

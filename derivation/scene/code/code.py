@@ -209,7 +209,7 @@ def _compliance(law: ContactLaw, a: float) -> float:
     if not law.viscous:
         return 0.0
     bent = bending_of(law, a)
-    if bent.law.other_edge:
+    if bent.other_edge:
         raise SceneError(
             "plate.edge: expected the paper's edge for the code of a viscoelastic contact with "
             f"bending, got a {law.model.edge} edge, with which the elastic deflection is not "

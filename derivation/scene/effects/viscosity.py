@@ -15,6 +15,7 @@ from derivation.scene.effects.effect import (
 )
 from derivation.scene.model import Model
 from derivation.scene.numerics import columns
+from generated.arrays import Double as Array
 
 if TYPE_CHECKING:
     from derivation.scene.contact_law.law import ContactLaw
@@ -126,11 +127,7 @@ def unlike_bodies_error(model: Model) -> float:
     The law has their mean, weighted with the compliances, which is correct to first order. In
     fact each body follows the force with its own delay.
     """
-    if not model.retardation_spread:
-        return 0.0
-    # Hertz's contact time, from x_v = (3/2) A_v/(m/K)^(2/5) v0^(1/5).
-    time = HERTZ_TIME * 1.5 * model.retardation_time / float(viscous_number(model))
-    return UNLIKE * (model.retardation_spread / time) ** 2
+    return float(_unlike_bodies_error(model))
 
 
 def later_end(model: Model, contact_time: float) -> float:
@@ -142,10 +139,32 @@ def later_end(model: Model, contact_time: float) -> float:
     retardation: by 0.67 A_v x^(4/3), x the spread of the times over A_v, for small x. The change is
     at most 3/2 A_v, because neither body can be in tension.
     """
-    if not model.retardation_spread:
+    return float(_later_end(model, contact_time))
+
+
+def unlike_bodies_on_static_plate(model: Model, contact_time: Array) -> tuple[Numbers, Array]:
+    """Return the model errors of results and of contact times on quasi-static plates [1]."""
+    size = _unlike_bodies_error(model)
+    return size, size + np.where(np.asarray(size) > 0.0, _later_end(model, contact_time), 0.0)
+
+
+def _unlike_bodies_error(model: Model) -> Numbers:
+    """Return `unlike_bodies_error` of one scene, or of many as a column."""
+    if not np.any(model.retardation_spread):
+        return 0.0
+    # Hertz's contact time, from x_v = (3/2) A_v/(m/K)^(2/5) v0^(1/5).
+    time = HERTZ_TIME * 1.5 * model.retardation_time / viscous_number(model)
+    ratio = model.retardation_spread / time
+    return UNLIKE * (ratio * ratio)
+
+
+def _later_end(model: Model, contact_time: Numbers) -> Numbers:
+    """Return `later_end` of one scene, or of many as a column."""
+    if not np.any(model.retardation_spread):
         return 0.0
     x = model.retardation_spread / model.retardation_time
-    return float(min(LATEST, END * x ** (4 / 3)) * model.retardation_time / contact_time)
+    change: Numbers = np.minimum(LATEST, END * (x * np.cbrt(x)))
+    return change * model.retardation_time / contact_time
 
 
 def viscous_number(model: Model) -> Numbers:

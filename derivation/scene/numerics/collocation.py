@@ -16,7 +16,9 @@ ONSET = 6
 on a plate that bends."""
 NEWTON = 30
 """Largest number of steps of Newton's iteration."""
-_CLOSE, _NEARLY = 1e-15, 1e-12
+CLOSE, NEARLY = 1e-15, 1e-12
+"""Relative steps of Newton's iteration that are due to rounding: in any case, and if they do not
+decrease [1]."""
 NEXT = 1e-14
 """Relative step of Newton's iteration that is due to rounding [1]."""
 _GROWTH = 3.0  # largest factor of the length from one element to the next
@@ -93,7 +95,7 @@ def newton_step(
 
 def settled(size: float, before: float) -> bool:
     """Return whether steps are due to rounding: tiny, or small and no longer decreasing."""
-    return size <= _CLOSE or (size <= _NEARLY and size > 0.1 * before)
+    return size <= CLOSE or (size <= NEARLY and size > 0.1 * before)
 
 
 def converged(size: float, before: float, order: int, enough: float = NEXT) -> bool:

@@ -1,48 +1,45 @@
 """Impact with a viscoelastic contact on a quasi-static plate, by collocation in time.
 
-The contact is viscoelastic (Kuwabara and Kono 1987, Brilliantov et al. 1996), the bending elastic.
-With contact radius a, P_e and delta_e force and indentation of the elastic law at a, and w the
-bending deflection of the plate,
-
-    m z'' = m g - P,   P = P_e + A_v dP_e/dt,   z = delta_e + w(P) - w(P_e)
-
-until P falls to zero, because the contact transmits no tension. A plastic contact adds the depth of
-its branch to delta_e; depths are measured from the dent at the beginning of the branch. The onset
-of contact is analytic in x = (t/T)^(1/6), T being the contact time without viscosity. On each time
-element da/dx is a polynomial through Radau nodes, computed by Newton's iteration. The length of an
-element is limited so that its last coefficients are of the size of rounding.
+The equations are those of `viscous_elements`. All scenes are computed together, each with its own
+time elements; one scene is computed like many. The length of an element is limited so that its last
+coefficients are of the size of rounding.
 """
 
-import math
-from dataclasses import dataclass, replace
-from typing import NamedTuple
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.yielding import Yielding, yielding_of
 from derivation.scene.dynamic.yield_events import UncutError, branch_after, cut
 from derivation.scene.errors import HeldError, SceneError
-from derivation.scene.numerics.collocation import (
-    NEWTON,
-    ONSET,
-    Element,
-    Radau,
-    converged,
-    largest_of,
-    newton_step,
-    radau,
+from derivation.scene.numerics.collocation import ONSET, Element, radau
+from derivation.scene.numerics.many_elements import (
+    Mask,
+    continued,
+    largest_values,
+    values_at,
+    zeros_of,
 )
 from derivation.scene.numerics.quadrature import gauss
 from derivation.scene.quasi_static import motion
 from derivation.scene.quasi_static.motion import EnergyBalance, Motion
-from derivation.scene.quasi_static.viscous_law import (
-    Curve,
-    CurvePoints,
-    ElasticBending,
-    bending_of,
-    curve_of,
+from derivation.scene.quasi_static.viscous_elements import (
+    LOST,
+    A,
+    Elements,
+    P,
+    Times,
+    V,
+    ViscousProblem,
+    Z,
+    elements,
+    onset,
+    problems_of,
 )
+from derivation.scene.quasi_static.viscous_law import number_of
 from generated.arrays import Double as Array
 
 STAGES = 9, 12
@@ -56,242 +53,215 @@ ROUNDING = 1e-11
 of at most 7e-12 in random scenes."""
 OWN = 1e3
 """Factor on the tolerance of the radius relative to its largest value in the element."""
-_ROUGH = 1e-3
-POWER = 4
-"""Power of x with which the radius is assumed to grow at the onset, for a first guess."""
-A, V, Z, P, LOST = range(5)
-"""Rows of a time element: contact radius, velocity, indentation, force, energy loss per x."""
-
-
-class Point(NamedTuple):
-    """Contact radius, velocity and indentation at a time, in the units of the problem."""
-
-    radius: float
-    velocity: float
-    depth: float
-
-
-class States(NamedTuple):
-    """Force P, depth d, energy loss per x, and derivatives of P and d: for a and for y = da/dx."""
-
-    P: Array
-    depth: Array
-    lost: Array
-    P_a: Array
-    P_y: Array
-    depth_a: Array
-    depth_y: Array
-
-
-@dataclass(frozen=True)
-class ViscousProblem:
-    """A scene in units of the impact without viscosity.
-
-    Attributes
-    ----------
-    curve, bending
-        The contact law, and its elastic part, the bending of the plate.
-    a, T
-        Units of radius [m] and time [s]; those of velocity, depth and force are v0, v0 T and
-        m v0/T.
-    yielding
-        The current branch of a plastic contact; None without plasticity.
-    """
-
-    curve: Curve
-    bending: ElasticBending
-    a: float
-    T: float
-    yielding: Yielding | None = None
-
-    @property
-    def law(self) -> ContactLaw:
-        """The contact law."""
-        return self.curve.law
-
-    @property
-    def force(self) -> float:
-        """Unit of forces [N]."""
-        return self.law.model.m * (self.law.model.v0 / self.T)
-
-    @property
-    def depth(self) -> float:
-        """Unit of depths [m]."""
-        return self.law.model.v0 * self.T
-
-    @property
-    def weight(self) -> float:
-        """Gravitational acceleration in units of v0/T."""
-        return self.law.gravity * (self.T / self.law.model.v0)
-
-    @property
-    def dent(self) -> float:
-        """Depth of the dent from which depths are measured, in units of the problem."""
-        return self.yielding.dent / self.depth if self.yielding else 0.0
-
-    def at(self, a: Array) -> CurvePoints:
-        """Return the law at radii [m], with the depth added by yielding."""
-        points = self.curve.at(a)
-        if self.yielding is None:
-            return points
-        depth, depth_a = self.yielding.added(points.force, points.force_a)
-        return points._replace(depth=points.depth + depth, depth_a=points.depth_a + depth_a)
-
-    def states(self, x: Array, a: Array, y: Array) -> States:
-        """Return forces and depths at radii a with da/dx = y."""
-        points = self.at(self.a * a)
-        delay = self.law.model.retardation_time / self.T / (ONSET * x ** (ONSET - 1))
-        force_a = points.force_a * (self.a / self.force)
-        elastic, P_y = points.force / self.force, delay * force_a
-        P = elastic + P_y * y
-        # d^2 P_e/da^2 = (2/a) dP_e/da by Hertz's law, and approximately by other laws.
-        P_a = force_a + 2.0 * P_y * y / a
-        bending = self.bending.at(np.array([P, elastic]) * self.force)
-        (bent, static), (bent_P, static_P) = bending
-        unit = self.force / self.depth
-        local = points.depth_a * (self.a / self.depth) - unit * static_P * force_a
-        depth = (points.depth + bent - static) / self.depth
-        return States(
-            P,
-            depth,
-            P_y * local * y * y,
-            P_a,
-            P_y,
-            local + unit * bent_P * P_a,
-            unit * bent_P * P_y,
-        )
-
-
-def element(
-    problem: ViscousProblem, n: int, x: float, length: float, start: Point, y: Array
-) -> tuple[Element, Point] | None:
-    """Return a time element and the state at its end, by Newton's iteration from a guess of da/dx.
-
-    Returns None if the iteration does not converge.
-    """
-    rule = radau(n)
-    xs = x + length * rule.x
-    by_x = length * rule.integral
-    by_t = by_x * (ONSET * xs ** (ONSET - 1))
-    t, size, found = xs**ONSET, math.inf, False
-    for _ in range(NEWTON):
-        a = start.radius + by_x @ y
-        if not np.all(a > 0.0):
-            return None
-        at = problem.states(xs, a, y)
-        v = start.velocity + problem.weight * (t - x**ONSET) - by_t @ at.P
-        z = start.depth + by_t @ v
-        if found:
-            rows = np.array([a, v, z + problem.dent, at.P, at.lost]) @ rule.analysis.T
-            made = Element(x, length, rows, rule.analysis @ y)
-            return made, Point(float(a[-1]), float(v[-1]), float(z[-1]))
-        P_y = at.P_a[:, None] * by_x + np.diag(at.P_y)
-        slope = at.depth_a[:, None] * by_x + np.diag(at.depth_y) + by_t @ (by_t @ P_y)
-        step = newton_step(slope / t[:, None], (z - at.depth) / t, by_x, a)
-        if step is None:
-            return None
-        y, before, size = y + step[0], size, step[1]
-        found = converged(size, before, 1)
-    return None
-
-
+TOGETHER = 512
+"""Number of scenes whose elements are computed together, so that they fit into the cache."""
 ViscousElement = tuple[Element, Yielding | None]
 """A time element, and the branch of a plastic contact."""
 
 
-def elements(problem: ViscousProblem, n: int) -> tuple[ViscousElement, ...]:
-    """Return the time elements of the impact, until the force falls to zero.
+@dataclass
+class Run:
+    """Impacts of some scenes by elements with a number of nodes.
 
-    Raises
-    ------
-    SceneError
-        If the impact does not end, or the iteration does not converge for the shortest element.
+    Attributes
+    ----------
+    problem
+        The scenes.
+    end
+        Where the force falls to zero, in x, shape (scenes,); NaN without a result.
+    last
+        Radius, velocity and depth there, in the units of the problem, shape (scenes, 3).
+    largest
+        Largest radius, depth and force, shape (scenes, 3).
+    fastest
+        Largest velocity, shape (scenes,).
+    errors
+        Why an impact has no result, by scene.
+    elements
+        The elements of a single scene.
     """
-    viscous_elements: list[ViscousElement] = []
-    x, length, start = 0.0, FIRST, Point(0.0, 1.0, 0.0)
-    # At the onset quantities are small; the tolerance refers to their expected size.
-    scale, last = np.full((5, 1), 0.1), None
+
+    problem: ViscousProblem
+    end: Array = field(init=False)
+    last: Array = field(init=False)
+    largest: Array = field(init=False)
+    fastest: Array = field(init=False)
+    errors: dict[int, SceneError] = field(default_factory=dict)
+    elements: list[ViscousElement] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        count = len(self.problem.T)
+        self.end, self.last = np.full(count, np.nan), np.full((count, 3), np.nan)
+        self.largest, self.fastest = np.full((count, 3), -np.inf), np.ones(count)
+
+    @property
+    def numbers(self) -> tuple[Array, ...]:
+        """The five outputs without plasticity, in SI units, as columns; NaN without a result."""
+        problem, (a, depth, force) = self.problem, (x[:, None] for x in self.largest.T)
+        unit, cube = problem.units, self.end * self.end * self.end
+        time = problem.T * (cube * cube)[:, None]
+        numbers = time, unit.depth * depth, unit.force * force, unit.a * a
+        known = ~np.isnan(time)
+        return *(np.where(known, x, np.nan) for x in numbers), -self.last[:, V, None]
+
+
+class _State:
+    """Scenes whose impacts have not ended: their next elements, and the last ones computed."""
+
+    def __init__(self, problem: ViscousProblem, n: int) -> None:
+        count = len(problem.T)
+        none, one = np.zeros(count), np.ones(count)
+        self.problem, self.index = problem, np.arange(count)
+        self.next = Times(none, FIRST * one, none, one, none)
+        self.begun = np.zeros(count, dtype=bool)
+        self.x, self.length, self.slope = none, one, np.zeros((count, n))
+        # At the onset quantities are small; the tolerance refers to their expected size.
+        self.scale = np.full((count, LOST + 1), 0.1)
+
+    def keep(self, which: Mask) -> None:
+        """Keep some of the scenes."""
+        kept = np.flatnonzero(which)
+        self.index, self.next = self.index[kept], self.next.take(kept)
+        if not kept.size:
+            return
+        self.problem = self.problem.take(kept)
+        for name in ("begun", "x", "length", "slope", "scale"):
+            setattr(self, name, getattr(self, name)[kept])
+
+    def guess(self, n: int) -> Array:
+        """Return first guesses of da/dx, by the last elements or at the onset of contact."""
+        rule, begun = radau(n), self.begun
+        if not begun.any():
+            return onset(self.problem, rule, self.next.length)
+        ahead = (self.next.nodes(rule) - (self.x + self.length)[:, None]) / self.length[:, None]
+        guess = continued(self.slope, ahead)
+        if not begun.all():
+            first = np.flatnonzero(~begun)
+            guess[first] = onset(self.problem.take(first), rule, self.next.length[first])
+        return guess
+
+
+def run(problem: ViscousProblem, n: int) -> Run:
+    """Return the impacts by elements with n nodes, until the forces fall to zero."""
+    result, state = Run(problem), _State(problem, n)
     for _ in range(MOST):
-        if length < SHORTEST:
+        _fail(result, state, state.next.length < SHORTEST, _unfinished)
+        if not len(state.index):
             break
-        xs = x + length * radau(n).x
-        guess = (
-            last.slope_at(xs) if viscous_elements and last else _onset(problem, radau(n), length)
+        now = state.next
+        made = elements(state.problem, n, now, state.guess(n))
+        found, length = made.found, now.length
+        state.x, state.length = (
+            np.where(found, new, old) for new, old in ((now.x, state.x), (length, state.length))
         )
-        made = element(problem, n, x, length, start, guess)
-        if made is None:
-            length *= 0.5
-            continue
-        last, end = made
-        own = np.max(np.abs(last.rows), axis=1, keepdims=True)
-        largest = np.maximum(scale, own)
+        state.slope = np.where(found[:, None], made.slope, state.slope)
+        own = np.abs(made.rows).max(axis=-1)
+        largest = np.maximum(state.scale, own)
         # At the end of contact the radius needs a small relative error, because it determines the
         # time.
-        unit = np.vstack((OWN * own[A], largest[V:LOST]))
-        error = float(np.max(np.abs(last.rows[:LOST, -2:]) / unit))
-        change = 0.9 * (TOLERANCE / max(error, 1e-300)) ** (1.0 / n)
-        if error > TOLERANCE:
-            length *= min(0.8, max(0.1, change))
-            continue
-        branch = problem.yielding
-        if branch is not None:
+        unit = largest[:, :LOST].copy()
+        unit[:, A] = OWN * own[:, A]
+        error = (np.abs(made.rows[:, :LOST, -2:]).max(axis=-1) / unit).max(axis=-1)
+        change = 0.9 * np.exp(np.log(TOLERANCE / np.maximum(error, 1e-300)) / n)
+        accepted = error <= TOLERANCE
+        shorter = np.where(found, length * np.minimum(0.8, np.fmax(0.1, change)), 0.5 * length)
+        longer = np.minimum(LONGEST, length * np.minimum(2.0, change))
+        width = length
+        if (branch := state.problem.yielding) is not None and accepted.all():
             try:
-                last, end, problem = _next_branch(problem, n, (last, end), start)
+                made, width = _next_branch(state, n, made)
             except UncutError:
-                length *= 0.5
-                continue
-        viscous_elements.append((last, branch))
-        if float(np.sum(last.rows[P])) <= 0.0:
-            return tuple(viscous_elements)
-        if start.velocity < 0.0 < end.velocity:
-            raise HeldError(
-                "plate.retardation_time: the sphere does not rebound because its weight holds it "
-                "on the plate; reduce retardation_time of plate or sphere, or increase impact.speed"
-            )
-        x, start, scale = last.x + last.length, end, largest
-        length = min(LONGEST, length * min(2.0, change))
-    raise SceneError(
-        "plate.retardation_time: the time integration failed at "
-        f"{problem.T * x**ONSET:.6g} s; reduce retardation_time of plate or sphere"
+                accepted, shorter = ~accepted, 0.5 * length
+        if not accepted.any():
+            state.next = now._replace(length=shorter)
+            continue
+        if len(problem.T) == 1:
+            result.elements.append((_element(now.x, width, made), branch))
+        put = state.index[accepted]
+        rows = made.rows[accepted][:, (A, Z, P)]
+        result.largest[put] = largest_values(rows, result.largest[put])
+        ended = accepted & (made.rows[:, P].sum(axis=-1) <= 0.0)
+        if ended.any():
+            result.fastest[state.index[ended]] = largest[ended, V]
+            _end(result, state.index[ended], now.x[ended], width[ended], made.rows[ended])
+        end = Times(now.x + width, longer, *made.end)
+        state.next = Times(
+            *(np.where(accepted, new, old) for new, old in zip(end, now, strict=True))
+        )._replace(length=np.where(accepted, longer, shorter))
+        state.scale = np.where(accepted[:, None], largest, state.scale)
+        state.begun |= accepted
+        held = accepted & ~ended & (now.velocity < 0.0) & (state.next.velocity > 0.0)
+        _fail(result, state, held, _held)
+        ended = ended[~held]
+        if ended.any():
+            state.keep(~ended)
+    _fail(result, state, np.ones(len(state.index), dtype=bool), _unfinished)
+    return result
+
+
+def _element(x: Array, length: Array, made: Elements) -> Element:
+    """Return the time element of a single scene."""
+    return Element(x.item(), length.item(), made.rows[0], made.slope[0])
+
+
+def _end(result: Run, index: NDArray[np.intp], x: Array, length: Array, rows: Array) -> None:
+    """Set where the forces of the last elements fall to zero, and the states there."""
+    s = zeros_of(rows[:, P])
+    result.end[index] = x + length * (1.0 + s) / 2.0
+    result.last[index] = values_at(rows[:, : Z + 1], s[:, None])
+
+
+def _fail(result: Run, state: _State, which: Mask, why: Callable[[float], SceneError]) -> None:
+    """Remove scenes whose impacts have no result, with the reason at a time [s]."""
+    if not which.any():
+        return
+    x = state.next.x[which]
+    times = np.ravel(state.problem.T)[which] * (x * x * x) ** 2
+    for index, time in zip(state.index[which].tolist(), times.tolist(), strict=True):
+        result.errors[index] = why(time)
+    state.keep(~which)
+
+
+def _held(_: float) -> SceneError:
+    return HeldError(
+        "plate.retardation_time: the sphere does not rebound because its weight holds it "
+        "on the plate; reduce retardation_time of plate or sphere, or increase impact.speed"
     )
 
 
-def _next_branch(
-    problem: ViscousProblem, n: int, made: tuple[Element, Point], start: Point
-) -> tuple[Element, Point, ViscousProblem]:
-    """Return element and state, cut at the first yield event, and the problem after it."""
-    branch, x = problem.yielding, made[0].x
+def _unfinished(time: float) -> SceneError:
+    return SceneError(
+        f"plate.retardation_time: the time integration failed at {time:.6g} s; reduce "
+        "retardation_time of plate or sphere"
+    )
+
+
+def _next_branch(state: _State, n: int, made: Elements) -> tuple[Elements, Array]:
+    """Return the element of a single scene, cut at its first yield event, and its length.
+
+    The problem of the state is then that after the event.
+    """
+    problem, now = state.problem, state.next
+    branch, unit = problem.yielding, number_of(problem.units.a)
     assert branch is not None
 
-    def shorter(length: float, guess: Array) -> tuple[Element, Point] | None:
-        return element(problem, n, x, length, start, guess)
+    def shorter(length: float, guess: Array) -> tuple[Elements, Element] | None:
+        times = now._replace(length=np.array([length]))
+        one = elements(problem, n, times, guess[None])
+        return (one, _element(now.x, times.length, one)) if one.found[0] else None
 
-    first = cut(branch, problem.a, made, lambda made: made[0], shorter)
+    whole = made, _element(now.x, now.length, made)
+    first = cut(branch, unit, whole, lambda one: one[1], shorter)
     if first is None:
-        return *made, problem
-    last, end = first
-    a = problem.a * end.radius
-    after = branch_after(branch, a, float(problem.curve.at(np.array([a])).force[0]))
-    sunk = (after.dent - branch.dent) / problem.depth
-    return last, end._replace(depth=end.depth - sunk), replace(problem, yielding=after)
-
-
-def _onset(problem: ViscousProblem, rule: Radau, length: float) -> Array:
-    """Return da/dx at the onset of contact, where delta = v0 t.
-
-    The radius grows as a power of x between the third, by Hertz's law, and the fourth, if its rate
-    bends a thin plate. The depth is a convex function of the radius. Newton's iteration therefore
-    converges from Hertz's radius, the largest possible one.
-    """
-    x = length * rule.x
-    a = math.sqrt(problem.law.model.R * problem.depth) / problem.a * x**3
-    for _ in range(NEWTON):
-        at = problem.states(x, a, POWER * a / x)
-        move = (at.depth - x**ONSET) / (at.depth_a + at.depth_y * POWER / x)
-        a = np.maximum(a - move, 0.5 * a)
-        if np.all(np.abs(move) <= _ROUGH * a):
-            break
-    return np.asarray(np.linalg.solve(length * rule.integral, a), dtype=np.float64)
+        return made, now.length
+    made, element = first
+    radius, (_, force, depth) = made.end[A].item(), problem.units
+    pressed = problem.curve.at(np.array([[radius]])).force * force
+    after = branch_after(branch, unit * radius, pressed.item())
+    made.end[Z] -= (after.dent - branch.dent) / number_of(depth)
+    state.problem, state.slope = replace(problem, yielding=after), made.slope
+    state.length = np.array([element.length])
+    return made, state.length
 
 
 @dataclass(frozen=True)
@@ -301,23 +271,25 @@ class ViscousMotion(Motion):
     problem: ViscousProblem | None = None
     elements: tuple[ViscousElement, ...] = ()
 
-    def history(self, law: ContactLaw, times: Array) -> tuple[Array, Array, Array, Array]:  # noqa: ARG002
+    def history(self, law: ContactLaw, times: Array) -> tuple[Array, Array, Array, Array]:
         """Return indentation [m], velocity [m/s], contact radius [m] and force [N] at times [s]."""
         problem = self.problem
         assert problem is not None
-        x = (np.minimum(times, self.contact_time) / problem.T) ** (1.0 / ONSET)
+        x = (np.minimum(times, self.contact_time) / problem.T.item()) ** (1.0 / ONSET)
         starts = [element.x for element, _ in self.elements]
+        unit, force, depth = map(number_of, problem.units)
         place = np.searchsorted(starts, x, side="right") - 1
         rows = np.empty((LOST + 1, x.size))
         for index in sorted(set(place.tolist())):
             element, branch = self.elements[index]
             part = element.at(x[place == index])
             if branch is not None:
-                a = problem.a * np.maximum(part[A], 0.0)
-                part[A] = branch.widened(a, problem.curve.at(a).force) / problem.a
+                a = np.maximum(part[A], 0.0)
+                pressed = force * problem.curve.at(a[None]).force[0]
+                part[A] = branch.widened(unit * a, pressed) / unit
             rows[:, place == index] = part
-        velocity, force = problem.law.model.v0 * rows[V], problem.force * np.maximum(rows[P], 0.0)
-        return problem.depth * rows[Z], velocity, problem.a * rows[A], force
+        pressed = force * np.maximum(rows[P], 0.0)
+        return depth * rows[Z], law.model.v0 * rows[V], unit * rows[A], pressed
 
 
 def impact(law: ContactLaw) -> ViscousMotion:
@@ -330,11 +302,48 @@ def impact(law: ContactLaw) -> ViscousMotion:
         integration fails.
     """
     elastic = _without_viscosity(law.only(lambda e: not e.viscous))
-    a, T = elastic.max_contact_radius, elastic.contact_time
-    problem = ViscousProblem(curve_of(law, a), bending_of(law, a), a, T, yielding_of(law))
-    rough, fine = (_motion(problem, elements(problem, n)) for n in STAGES)
+    a, T = (np.array([[unit]]) for unit in (elastic.max_contact_radius, elastic.contact_time))
+    [(_, problem)] = problems_of(law, a, T, yielding_of(law))
+    rough, fine = (_checked(run(problem, n)) for n in STAGES)
+    return _motion(fine, law, _errors(fine, rough).item())
+
+
+def impacts(law: ContactLaw, a: Array, T: Array) -> tuple[Array, ...]:
+    """Return the outputs and their relative errors for many scenes, as columns.
+
+    They are NaN where `impact` raises an error, or for an extreme scene.
+
+    Parameters
+    ----------
+    law
+        A law with viscosity and without plasticity, with columns of numbers.
+    a, T
+        Largest radii [m] and contact times [s] without viscosity, as columns.
+    """
+    found = np.full((6, *a.shape), np.nan)
+    for rows, problem in problems_of(law, a, T):
+        rough, fine = (run(problem, n) for n in STAGES)
+        found[:, rows] = *fine.numbers, _errors(fine, rough)
+    sound = (found > 0.0).all(axis=0) & np.isfinite(found).all(axis=0)
+    return tuple(np.where(sound, column, np.nan) for column in found)
+
+
+def _errors(fine: Run, rough: Run) -> Array:
+    """Return the largest relative errors of the results by the elements [1].
+
+    It is the change by more nodes and, since both runs have the same tolerance, which is relative
+    to the largest velocity, the error by an increase of the velocity by the weight.
+    """
     pairs = zip(fine.numbers, rough.numbers, strict=True)
-    return replace(fine, quadrature=max(abs(new / old - 1.0) for new, old in pairs))
+    change = np.maximum.reduce([np.abs(new / old - 1.0) for new, old in pairs])
+    return np.asarray(change + TOLERANCE * (fine.fastest[:, None] - 1.0) / fine.numbers[-1])
+
+
+def _checked(result: Run) -> Run:
+    """Return the impact of a single scene, or raise its error."""
+    if result.errors:
+        raise result.errors[0]
+    return result
 
 
 def _without_viscosity(law: ContactLaw) -> Motion:
@@ -346,33 +355,30 @@ def _without_viscosity(law: ContactLaw) -> Motion:
     return plastic.impact(law)
 
 
-def _motion(problem: ViscousProblem, viscous_elements: tuple[ViscousElement, ...]) -> ViscousMotion:
-    """Return the results of an impact from its time elements."""
-    elements = tuple(element for element, _ in viscous_elements)
-    problem = replace(problem, yielding=viscous_elements[-1][1])
-    last = elements[-1].end(P)
-    a, v, z, _, _ = elements[-1].at(np.array([last]))[:, 0]
-    depth, force, radius = (largest_of(elements, row) for row in (Z, P, A))
-    branch = problem.yielding
-    energy = problem.law.model.m * problem.law.model.v0 * problem.law.model.v0
+def _motion(result: Run, law: ContactLaw, quadrature: float) -> ViscousMotion:
+    """Return the results of the impact of a single scene."""
+    branch = result.elements[-1][1]
+    problem, [(a, _, z)] = replace(result.problem, yielding=branch), result.last.tolist()
+    time, depth, force, radius, restitution = (number.item() for number in result.numbers)
+    energy = law.model.m * law.model.v0 * law.model.v0
     energy_balance = EnergyBalance(
         initial_kinetic=0.5 * energy,
-        gravity_work=energy * problem.weight * float(z),
-        rebound_kinetic=0.5 * energy * float(v) ** 2,
-        viscous_loss=energy * sum(_lost(element, last) for element in elements),
-        unrecovered_elastic=_left(problem, problem.a * float(a)),
+        gravity_work=energy * number_of(problem.weight) * z,
+        rebound_kinetic=0.5 * energy * restitution**2,
+        viscous_loss=energy * sum(_lost(one, result.end.item()) for one, _ in result.elements),
+        unrecovered_elastic=energy * _left(problem, a),
         plastic_loss=branch.work if branch else 0.0,
     )
     return ViscousMotion(
-        problem.T * last**ONSET,
-        problem.depth * depth,
-        problem.force * force,
-        problem.a * radius / (branch.flattening if branch else 1.0),
-        0.0,
-        -float(v),
+        time,
+        depth,
+        force,
+        radius / (branch.flattening if branch else 1.0),
+        quadrature,
+        restitution,
         energy_balance,
         problem=problem,
-        elements=viscous_elements,
+        elements=tuple(result.elements),
         dent=branch.dent if branch else 0.0,
     )
 
@@ -385,8 +391,8 @@ def _lost(element: Element, last: float) -> float:
 
 
 def _left(problem: ViscousProblem, a: float) -> float:
-    """Return the stored viscoelastic energy [J] at a radius [m]: int P_e d(delta_e - w)."""
+    """Return the stored viscoelastic energy at a radius: int P_e d(delta_e - w)."""
     x, weights = gauss(48)
-    point = problem.at(a * x)
+    point = problem.at(a * x[None])
     slope = point.depth_a - problem.bending.at(point.force)[1] * point.force_a
-    return a * float(weights @ (point.force * slope))
+    return a * float(weights @ (point.force * slope)[0])

@@ -7,6 +7,7 @@ import numpy as np
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import local_indentation, plate_times
 from derivation.scene.effects.plasticity import Plasticity
+from derivation.scene.effects.viscosity import unlike_bodies_on_static_plate
 from derivation.scene.kernels import YIELD_LIMIT
 from derivation.scene.model_errors import quasi_static_errors
 from derivation.scene.output.result_errors import OF_OTHERS
@@ -67,6 +68,11 @@ def errors_of_rows(
     with np.errstate(all="ignore"):
         found = quasi_static_errors(law, a, depth, deflection, columns["restitution"])
         model = {name: error[:, 0] for name, error in found.items()}
+        if law.viscous:
+            unlike = unlike_bodies_on_static_plate(law.model, columns["contact_time"])
+            size, time = (np.broadcast_to(x, a.shape)[:, 0] for x in unlike)
+            model = {name: error + (time if name == "contact_time" else size)
+                     for name, error in model.items()}  # fmt: skip
         bound = bound_with(group.error)
         bounds: dict[str, Array] = {
             x: bound if x in outputs else bound_with(omitted_on(x)) for x in OUTPUTS

@@ -1,10 +1,10 @@
 """Simulation of many scenes: columns of numbers and names in, columns of results out.
 
-Rows with the same names, such as those of materials, are computed together: elastic and plastic
-impacts on quasi-static plates in arrays. All other rows (a viscoelastic contact, plate inertia,
-weight in a plastic contact), invalid rows, and rows for which rounding could change a decision are
-simulated one by one. Each row is equal to the result of `simulate` for its scene: effects, status
-and reason are the same, and numbers to the last bit.
+Rows with the same names, such as those of materials, are computed together: impacts on quasi-static
+plates in arrays. All other rows (plate inertia, a plastic contact that is viscoelastic or has
+weight), invalid rows, and rows for which rounding could change a decision are simulated one by one.
+Each row is equal to the result of `simulate` for its scene: effects, status and reason are the
+same, and numbers to the last bit.
 """
 
 import math
@@ -41,7 +41,7 @@ from derivation.scene.scene import Scene, outputs_of, read
 from derivation.scene.selection.candidates import check_enabled
 from generated.arrays import Double as Array
 
-FIRST, BLOCK = 2**11, 2**15
+FIRST, BLOCK = 2**9, 2**15
 """Number of rows that are first computed together, in case they take long, and the largest number,
 which bounds the memory."""
 ROUNDING = 1e-14
@@ -150,7 +150,8 @@ def solve(
     rows, until = _empty(count), time.perf_counter() + seconds
     start, size = 0, min(FIRST, BLOCK)
     while start < count:
-        if start and time.perf_counter() > until:
+        begun = time.perf_counter()
+        if start and begun > until:
             return rows.first(start)
         part = {key: values[start : start + size] for key, values in given.items()}
         groups = _groups(scene, part, rtol, rows, start)
@@ -159,7 +160,9 @@ def solve(
             if row and time.perf_counter() > until:
                 return rows.first(row)
             left[row].one(row)
-        start, size = start + size, min(4 * size, BLOCK)
+        start, now = start + size, time.perf_counter()
+        within = int(min((until - now) / max(now - begun, 1e-9), 4.0) * size)
+        size = max(1, min(within, BLOCK))
     return rows
 
 

@@ -168,7 +168,7 @@ def _with_equal_effects(model: Model, count: int) -> list[Rows]:
 
 def _own_solution(law: ContactLaw) -> bool:
     """Return whether impacts by a law are computed one by one."""
-    return law.viscous or law.dynamic or (law.plastic and bool(np.any(law.gravity)))
+    return law.dynamic or (law.plastic and (law.viscous or bool(np.any(law.gravity))))
 
 
 def _held(given: Candidates) -> bool:

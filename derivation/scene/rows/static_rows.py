@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from derivation.scene import kernels
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.numerics.quadrature import MORE_TIMES, NODES
-from derivation.scene.quasi_static import simple_laws, yield_phases
+from derivation.scene.quasi_static import simple_laws, viscous, yield_phases
 from derivation.scene.quasi_static.closed_form import bend_of, only_bends
 from derivation.scene.quasi_static.motion import closeness, largest_radii, results_at, settled
 from derivation.scene.selection.method_selection import rounding_of, whole_law
@@ -72,6 +72,8 @@ def impacts_of(law: ContactLaw, count: int, rest: Array | None) -> Impacts:
     impacts = Impacts(*(np.full(count, np.nan) for _ in fields(Impacts)))
     if law.of_paper:
         _by_papers_law(law, rest, impacts)
+    elif law.viscous:
+        _in_blocks(law, impacts, _viscous, viscous.TOGETHER)
     elif law.hertzian and not (law.plastic or np.any(law.gravity)):
         _in_closed_form(law, impacts)
     elif only_bends(law) and not (law.plastic or np.any(law.gravity)):
@@ -139,12 +141,15 @@ def _in_closed_form(law: ContactLaw, impacts: Impacts, bend: Array | None = None
 
 
 def _in_blocks(
-    law: ContactLaw, impacts: Impacts, run: Callable[[ContactLaw, Rows, Impacts], None]
+    law: ContactLaw,
+    impacts: Impacts,
+    run: Callable[[ContactLaw, Rows, Impacts], None],
+    together: int = TOGETHER,
 ) -> None:
-    """Use a quadrature for a few rows at a time."""
+    """Use a quadrature or time elements for a few rows at a time."""
     count = len(impacts.law)
-    for start in range(0, count, TOGETHER):
-        rows = np.arange(start, min(start + TOGETHER, count))
+    for start in range(0, count, together):
+        rows = np.arange(start, min(start + together, count))
         part = law.take(rows)
         with np.errstate(all="ignore"):
             run(part, rows, impacts)
@@ -164,6 +169,20 @@ def _plastic(law: ContactLaw, rows: Rows, impacts: Impacts) -> None:
     _elastic(yield_phases.without_plasticity(law), rows, impacts)
     certain = impacts.max_contact_radius[rows] <= yield_phases.onset_in(law).a[:, 0]
     impacts.put(rows[~certain], UNKNOWN)
+
+
+def _viscous(law: ContactLaw, rows: Rows, impacts: Impacts) -> None:
+    """Use the time elements of `viscous.impact`, in units of the impacts without viscosity."""
+    elastic = law.only(lambda effect: not effect.viscous)
+    units = Impacts(*(np.full(len(rows), np.nan) for _ in fields(Impacts)))
+    _elastic(elastic, np.arange(len(rows)), units)
+    a, T = units.max_contact_radius[:, None], units.contact_time[:, None]
+    known = (np.isfinite(T) & (T > 0.0) & (a < law.limit))[:, 0]
+    if not known.any():
+        return
+    *numbers, restitution, quadrature = viscous.impacts(law.take(known), a[known], T[known])
+    columns = (column[:, 0] for column in (*numbers, np.zeros_like(quadrature), quadrature))
+    impacts.put(rows[known], (*columns, 0.0), restitution[:, 0])
 
 
 def _elastic(law: ContactLaw, rows: Rows, impacts: Impacts) -> None:

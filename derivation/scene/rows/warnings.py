@@ -150,6 +150,9 @@ def _yielding(law: ContactLaw, one: SimpleNamespace) -> Mask:
         rise = risen_restitution(np.maximum(one.over_onset, 1.0))
         possible: Mask = rise > less * WARNED
         return possible
+    if law.viscous:  # yield is not checked
+        unchecked: Mask = np.isfinite(one.yield_stress)
+        return unchecked
     limit = less * kernels.YIELD_LIMIT * one.yield_stress
     neglected: Mask = exceeds(one.max_pressure, limit, one.pressure_error)
     return neglected
@@ -184,7 +187,8 @@ def _texts(law: ContactLaw) -> tuple[Texts, ...]:
             return impact_warnings(one.over_onset)
         weaker = "sphere" if one.yield_stress < one.plate_yield_stress else "plate"
         limit = _given(one.yield_stress)
-        return pressure_warnings(one.max_pressure, limit, body=weaker, error=one.pressure_error)
+        pressure, error = one.max_pressure, one.pressure_error
+        return pressure_warnings(pressure, limit, law.viscous, weaker, error)
 
     def failing(one: Any) -> tuple[str, ...]:
         limits = _given(one.strength), _given(one.plate_yield_stress)

@@ -241,6 +241,15 @@ def test_rows_in_arrays_end_after_the_given_time(monkeypatch: pytest.MonkeyPatch
     assert len(solve(scene_with(), columns, 1e-1)) == 7
 
 
+def test_errors_of_rows_on_supported_plates_do_not_depend_on_their_number() -> None:
+    """NumPy rounds powers of one Poisson's ratio and of many differently."""
+    soft = {"radius": 0.1, "half_thickness": 1e-3, "youngs_modulus": 1e8, "poissons_ratio": 0.3,
+            "edge": "simply-supported"}  # fmt: skip
+    scene = read({"sphere": {"radius": 0.01, "material": "steel"}, "plate": soft,
+                  "impact": {"speed": 1.0}, "effects": {"inertia": False}})  # fmt: skip
+    check(scene, {"plate.poissons_ratio": np.linspace(0.2, 0.4, 41)})
+
+
 @pytest.mark.parametrize("length", [1e-3, 1e3])
 def test_rows_in_other_units_of_length_are_the_same_impacts(length: float) -> None:
     """The results scale with the unit of length as their dimensions require."""

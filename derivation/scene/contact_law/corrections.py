@@ -32,7 +32,9 @@ def stretching(model: Model, deflection: Numbers) -> Numbers:
     """
     nu = np.asarray(model.poissons_ratio)
     ratio = deflection / (2.0 * model.h)
-    size: Numbers = _STIFFENING.get(model.edge, kernels.stiffening_paper)(nu) * ratio * ratio
+    # NumPy rounds the power of one number differently from that of an array.
+    first_order = _STIFFENING.get(model.edge, kernels.stiffening_paper)(np.atleast_1d(nu))
+    size: Numbers = first_order.reshape(nu.shape) * ratio * ratio
     return size
 
 

@@ -49,8 +49,9 @@ FIRST, LONGEST, SHORTEST, MOST = 0.05, 0.25, 1e-13, 2000
 TOLERANCE = 1e-11
 """Largest ratio of the last coefficients of an element to the largest coefficient."""
 ROUNDING = 1e-11
-"""Tested bound on the rounding errors of the results [1]. The contact time has the largest errors,
-of at most 7e-12 in random scenes."""
+"""Bound on the rounding errors of the results, besides the change between both runs [1]. In 581
+random scenes, results differed from those of more accurate runs by at most 0.94 of both together;
+the contact time has the largest errors, up to 4e-11."""
 OWN = 1e3
 """Factor on the tolerance of the radius relative to its largest value in the element."""
 TOGETHER = 512

@@ -27,6 +27,8 @@ HERTZ_TIME_POWER, RADIUS_POWER = 0.4, 1.0 / 3.0
 Hertz's law."""
 SMALL = 1e-3
 """Change of the contact radius at a given force below which the error is neglected [1]."""
+MIDDLES = (np.arange(16) + 0.5) / 16
+"""Times in a contact over its duration, for a mean value."""
 HALVINGS = 6
 """Number of halvings of a change of curvature for which the law has no solution."""
 
@@ -54,12 +56,28 @@ def flat_contact_errors(motion: "DynamicImpact") -> dict[str, float]:
     work = sum(p * x for p, x in zip(forces, depths, strict=True)) / (model.m * model.v0**2)
     rebound = abs(motion.restitution) if motion.inertia.complete else 1.0  # else unknown
     return {
-        "contact_time": HERTZ_TIME_POWER * changes[0],
+        "contact_time": HERTZ_TIME_POWER * _mean_change(motion),
         "max_indentation": max(depths) / motion.max_indentation,
         "max_force": higher / max(forces) - 1.0,
         "max_contact_radius": RADIUS_POWER * max(changes),
         "restitution": work / max(rebound, 1e-6) ** 2,
     }
+
+
+def _mean_change(motion: "DynamicImpact") -> float:
+    """Return the relative change of the force in the first contact, weighted with the force [1]."""
+    first, problem, law = (
+        motion.impact_history.contacts[0],
+        motion.impact_history.problem,
+        motion.law,
+    )
+    times = problem.T * (first.start + (first.end - first.start) * MIDDLES)
+    a, force, radius = motion.rows(times)[[A, P, C]]
+    depths = [
+        neglected_depth(law, *pair) if pair[0] > 0.0 else 0.0
+        for pair in zip(a.tolist(), radius.tolist(), strict=True)
+    ]
+    return float(2.0 * law.modulus * np.sum(radius * np.array(depths)) / np.sum(force))
 
 
 def neglected_depth(law: ContactLaw, a: float, radius: float) -> float:

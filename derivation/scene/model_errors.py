@@ -15,7 +15,6 @@ from derivation.scene.contact_law.finite_sphere import (
 )
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import local_indentation
-from derivation.scene.dynamic.flat_contact import flat_contact_errors
 from derivation.scene.dynamic.model_error import curvature_error, end_error, inertia_error
 from derivation.scene.dynamic.stretching_error import (
     Deflections,
@@ -70,7 +69,7 @@ def model_errors(
     returned = other_edge and motion.inertia.total_time > echo_time(motion.law.model)
     edge = edge_remainder(model, a) if returned else 0.0
     waves["max_contact_radius"] += curvature_error(motion.law, a, motion.inertia.curvature)
-    for name, error in flat_contact_errors(motion).items():
+    for name, error in motion.flat_contact_errors.items():
         waves[name] += error
     if law.viscous:
         end = end_error(motion.histories[0][P], waves["max_force"])

@@ -110,6 +110,7 @@ def tensile_stress(
         if on_edge and stress_end(motion) > echo_time(motion.law.model):
             measured = max(measured, found.on_edge + edge_stress_error(model, a))
         error = found.error + measured + stress_change(law, motion)
+        error += motion.flat_contact_errors["max_force"]  # the stress follows the force
         error += float(finite_sphere_error(law, a, indentation))
         return TensileStress(found.stress, error, static=False)
     stress = law.max_tensile_stress(a, force, on_edge)

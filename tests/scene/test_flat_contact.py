@@ -50,6 +50,8 @@ def test_force_of_a_light_sphere_is_that_of_finite_elements() -> None:
     off = abs(result.max_force / found.max_force - 1.0)
     assert off <= result.error_of("max_force") < 5.0 * off
     assert off > result.error_of("max_force") - flat["max_force"] + ELEMENTS
+    steeper = abs(result.max_tensile_stress / found.max_tensile_stress - 1.0)
+    assert steeper + flat["max_force"] <= result.error_of("max_tensile_stress")
     later = abs(result.contact_time / found.contact_time - 1.0)
     assert later <= flat["contact_time"]
     assert result.dynamics.inertia.curvature < -0.4

@@ -60,6 +60,13 @@ class DynamicImpact(Motion):
 
         return back_face(self)
 
+    @cached_property
+    def flat_contact_errors(self) -> dict[str, float]:
+        """Relative error of each result by the curvature under the sphere [1]."""
+        from derivation.scene.dynamic.flat_contact import flat_contact_errors
+
+        return flat_contact_errors(self)
+
     @property
     def least(self) -> float:
         """Smallest force between two maxima in a contact, over the peak force [1]; 1 if none."""

@@ -250,6 +250,15 @@ def test_errors_of_rows_on_supported_plates_do_not_depend_on_their_number() -> N
     check(scene, {"plate.poissons_ratio": np.linspace(0.2, 0.4, 41)})
 
 
+def test_the_widest_contact_of_a_row_does_not_depend_on_other_rows() -> None:
+    """Only the wide sphere may leave its plate; the law of the other one ends at its radius."""
+    plate = {"radius": 0.05, "thickness": 0.03, "youngs_modulus": 3e8, "material": None}
+    scene = scene_with(plate=plate | {"poissons_ratio": 0.37}, effects={"inertia": False})
+    check(
+        scene, {"impact.speed": np.array([107.0, 0.08]), "sphere.radius": np.array([1.6e-3, 0.056])}
+    )
+
+
 @pytest.mark.parametrize("length", [1e-3, 1e3])
 def test_rows_in_other_units_of_length_are_the_same_impacts(length: float) -> None:
     """The results scale with the unit of length as their dimensions require."""

@@ -189,13 +189,16 @@ class ContactLaw:
             on_plate = (1.0 - CANCELLED) * self._reach.plate * self.model.b
             return a * np.cbrt(self._sphere(a).force) < on_plate
 
-        if np.all(within(high)):
+        whole = within(high)
+        if np.all(whole):
             return high
-        low = 0.0 * high
+        widest, low = high, 0.0 * high
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
             low, high = np.where(within(middle), [middle, high], [low, middle])
-        return low if np.ndim(low) else float(low)
+        # The bisection would change scenes that are within in their last digit.
+        radii: Any = np.where(whole, widest, low)
+        return radii if np.ndim(radii) else float(radii)
 
     @property
     def limit_in_words(self) -> str:

@@ -23,7 +23,7 @@ from derivation.scene.errors import SceneError
 from derivation.scene.scene import OUTPUTS
 
 MORE, MOST, ACCURATE = 96, 192, 0.05
-"""Number of shapes for a tolerance of at most this, and largest number."""
+"""Number of shapes with a tolerance, the largest number, and the largest tolerance for them [1]."""
 FEW = 128
 """Number of modes of the second run up to which the largest number of shapes stretch the plate."""
 PART = 0.75

@@ -58,7 +58,7 @@ def figure(result: Result) -> "Figure":
             begin, end = np.array([touch.start, touch.end]) * (t[-1] / times[-1])
             drawn[name].axvspan(begin, end, color="0.9", zorder=0, linewidth=0)
     drawn["z"].patches[0].set_label("in contact")
-    drawn["z"].legend(frameon=False)
+    drawn["z"].legend(framealpha=1.0)  # on white, the grey of the contact is visible
     drawn["z"].invert_yaxis()
     for name, text in TITLES.items():
         drawn[name].set_title(text, fontsize=10)

@@ -14,6 +14,7 @@ from derivation.scene.dynamic.stretched_shapes import with_shape_error, with_sha
 from derivation.scene.dynamic.time_in_contact import FEWER
 from derivation.scene.dynamic.wave_motion import DynamicImpact
 from derivation.scene.scene import OUTPUTS
+from tests.scene.stretching_scenes import SCENES
 
 pytestmark = pytest.mark.one_version
 MODES = 96
@@ -113,17 +114,7 @@ def test_more_shapes_stretch_the_plate_if_the_tolerance_requires(
 
 def test_all_shapes_stretch_a_plate_with_few_modes() -> None:
     """No error of other shapes has then to be estimated by further simulations."""
-    scene = {
-        "sphere": {"radius": 0.0148, "material": "steel"},
-        "plate": {
-            "radius": 0.136,
-            "thickness": 3.87e-3,
-            "material": "steel",
-            "edge": "clamped",
-            "yield_stress": 1.02e9,
-        },
-        "impact": {"speed": 17.3},
-    }
+    scene = SCENES["yielding contacts, of which a later one becomes the strongest"]
     found = simulate(read(scene), rtol=1e-2)
     shapes, modes = shapes_and_modes(found)
     assert shapes == modes > stretched_shapes.MORE

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from derivation.scene import kernels
 from derivation.scene.contact_law.flatter_plate import Flattening, flatter_plate
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.dynamic.time_element import A, C, P
@@ -51,7 +52,7 @@ def flat_contact_errors(motion: "DynamicImpact") -> dict[str, float]:
         depth = neglected_depth(law, a, radius)
         depths.append(depth)
         forces.append(force)
-        changes.append(2.0 * law.modulus * radius * depth / force)
+        changes.append(_stiffness(law, radius) * depth / force)
     higher = max(p * (1.0 + x) for p, x in zip(forces, changes, strict=True))
     work = sum(p * x for p, x in zip(forces, depths, strict=True)) / (model.m * model.v0**2)
     rebound = abs(motion.restitution) if motion.inertia.complete else 1.0  # else unknown
@@ -73,11 +74,16 @@ def _mean_change(motion: "DynamicImpact") -> float:
     )
     times = problem.T * (first.start + (first.end - first.start) * MIDDLES)
     a, force, radius = motion.rows(times)[[A, P, C]]
-    depths = [
-        neglected_depth(law, *pair) if pair[0] > 0.0 else 0.0
+    added = [
+        _stiffness(law, pair[1]) * neglected_depth(law, *pair) if pair[0] > 0.0 else 0.0
         for pair in zip(a.tolist(), radius.tolist(), strict=True)
     ]
-    return float(2.0 * law.modulus * np.sum(radius * np.array(depths)) / np.sum(force))
+    return float(sum(added) / np.sum(force))
+
+
+def _stiffness(law: ContactLaw, radius: float) -> float:
+    """Return the stiffness of the contact at a radius [m], without the plate [N/m]."""
+    return float(kernels.hertz_stiffness(np.array(radius), np.array(law.modulus)))
 
 
 def neglected_depth(law: ContactLaw, a: float, radius: float) -> float:

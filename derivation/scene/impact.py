@@ -157,7 +157,7 @@ def _simulated(scene: Scene, rtol: float | None, on_units: tuple[str, ...]) -> R
         stress = tensile_stress(law, motion, numbers, not selected.edge_disabled)
     pressed = accuracy_on(OUTPUTS, selected, motion, accuracy)
     loaded = accuracy_on(("max_force",), selected, motion, accuracy)
-    pressure_error = pressed.pressure_bound + errors["max_contact_radius"]
+    pressure_error = pressed.pressure_bound + errors["max_pressure"]
     stress_error = loaded.bound + stress.error + measured
     warnings = (
         *on_units,

@@ -21,6 +21,7 @@ from derivation.scene.contact_law.corrections import stretching
 from derivation.scene.contact_law.edge_curvature import CurvatureErrors, edge_curvature_errors
 from derivation.scene.contact_law.edge_remainder import edge_warnings, largest_neighbours
 from derivation.scene.contact_law.finite_sphere import finite_sphere_error
+from derivation.scene.contact_law.finite_strains import more_than_radius, radius_error
 from derivation.scene.contact_law.flatter_plate import flatter_plate
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import (
@@ -61,7 +62,7 @@ change of the indentation that the modes omit.
 In 173 contacts with finite elements of finite strains, force and stiffness differed by at most 0.7
 of the stated error: contact radii of 0.05 to 2.1 thicknesses, deflections of 0.2 to 10, three
 edges, Poisson's ratios of 0 to 0.48. Radius and pressure differed by at most 0.8 of it for a/R
-below 0.1, apart from the change by finite strains on a half-space of the same material."""
+below 0.1, apart from the change by finite strains, which has an error of its own."""
 THINNING = 8.0
 """Relative error of the force over the relative change of the indentation, because tension makes
 the plate thinner under the sphere. The contact pressure also widens the tensed middle plane, which
@@ -349,7 +350,7 @@ def _pressure(law: ContactLaw, at: Loaded) -> float:
 def _model_errors(law: ContactLaw, at: Loaded) -> dict[str, float]:
     """Return the largest relative model errors [1]: of all quantities, and without the pressure.
 
-    Edge, neglected stretching, curvature, the finite size of the sphere and motion of the faces
+    Edge, neglected stretching, curvature, the finite size of the sphere and finite strains
     change the indentation at a given force; the force at a given indentation changes by a power of
     that. On a plate that stretches, large rotations change the force at a given deflection, and the
     omitted shapes the force of stretching. Like the stiffening S, these changes grow with the
@@ -371,6 +372,7 @@ def _model_errors(law: ContactLaw, at: Loaded) -> dict[str, float]:
         [edge] = largest_neighbours(model, np.array([at.radius]), model.eta)
         changes += float(edge) if np.isfinite(edge) else math.inf
     error = max(1.0, at.stiffness * at.depth / at.force) * changes + rotation
+    pressure += float(radius_error(law, at.radius) + more_than_radius(law, at.radius))
     return {"model_error": error + pressure, "force_error": error}
 
 

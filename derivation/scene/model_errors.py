@@ -1,7 +1,7 @@
 """Relative errors of the model of an impact itself, which no tolerance includes."""
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from derivation.scene.contact_law.finite_sphere import (
     finite_sphere_errors,
     rebound_error,
 )
+from derivation.scene.contact_law.finite_strains import more_than_radius, radius_error
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import local_indentation
 from derivation.scene.dynamic.model_error import curvature_error, end_error, inertia_error
@@ -31,6 +32,9 @@ from generated.arrays import Double as Array
 if TYPE_CHECKING:
     from derivation.scene.dynamic.wave_motion import DynamicImpact
 
+WIDTH: Final = "max_contact_radius"
+PRESSURE: Final = "max_pressure"
+
 
 def deflections_in(
     law: ContactLaw, numbers: Results, motion: "DynamicImpact | None"
@@ -47,9 +51,9 @@ def model_errors(
     deflections: Deflections,
     motion: "DynamicImpact | None",
 ) -> dict[str, float]:
-    """Return the relative model error of each output [1].
+    """Return the relative model error of each output and of `max_pressure` [1].
 
-    It is that by edge, waves, stretching, viscosity, finite size of the sphere and motion of faces.
+    It is that by edge, waves, stretching, viscosity, finite size of the sphere and finite strains.
     """
     model, other_edge, a = law.model, law.other_edge, numbers[3]
     growth = growth_of(motion)
@@ -58,8 +62,9 @@ def model_errors(
         if other_edge:
             edge_remainder(model, a)  # outside its range it raises an error
         one = (np.array([x]) for x in (a, numbers[1], deflections.largest, numbers[4]))
-        errors = quasi_static_errors(law, *one)
-        return {name: float(error[0]) + unlike[name] for name, error in errors.items()}
+        found = quasi_static_errors(law, *one)
+        errors = {name: float(found[name][0]) + unlike[name] for name in OUTPUTS}
+        return errors | {PRESSURE: float(found[PRESSURE][0]) + unlike[WIDTH]}
     sphere = dict(zip(OUTPUTS, finite_sphere_errors(law, numbers, growth), strict=True))
     from derivation.scene.dynamic.wave_problem import echo_time
 
@@ -68,22 +73,23 @@ def model_errors(
     # The edge has no effect before a wave has returned from it.
     returned = other_edge and motion.inertia.total_time > echo_time(motion.law.model)
     edge = edge_remainder(model, a) if returned else 0.0
-    waves["max_contact_radius"] += curvature_error(motion.law, a, motion.inertia.curvature)
+    waves[WIDTH] += curvature_error(motion.law, a, motion.inertia.curvature)
     for name, error in motion.flat_contact_errors.items():
         waves[name] += error
     if law.viscous:
         end = end_error(motion.histories[0][P], waves["max_force"])
         waves["contact_time"] = max(waves["contact_time"], end)
-    return {
+    errors = {
         name: max(waves[name] + stretched[name], edge) + unlike[name] + sphere[name]
         for name in OUTPUTS
     }
+    return errors | {PRESSURE: errors[WIDTH] + float(more_than_radius(law, a))}
 
 
 def quasi_static_errors(
     law: ContactLaw, a: Array, depth: Array, deflection: Array, restitution: Array
 ) -> dict[str, Array]:
-    """Return the relative model errors of impacts on quasi-static plates [1].
+    """Return the relative model errors of the outputs and of `max_pressure` [1], without inertia.
 
     Those of a viscoelastic contact whose bodies differ are not included.
 
@@ -113,4 +119,6 @@ def quasi_static_errors(
         lost = size * np.maximum(1.0, dissipated)
     rebound = edge + lost + rebound_error(law, a, sphere, restitution)
     errors: dict[str, Array] = dict.fromkeys(OUTPUTS, error)
-    return errors | {"max_contact_radius": error + pressed, "restitution": rebound}
+    wide = error + pressed + radius_error(law, a)
+    pressure = wide + more_than_radius(law, a)
+    return errors | {WIDTH: wide, PRESSURE: pressure, "restitution": rebound}

@@ -68,7 +68,7 @@ class Result:
         Without plate inertia: error of the edge relative to the indentation, measured against a
         three-dimensional elastic solution; 0 for the paper's edge. With plate inertia: error of the
         requested outputs, measured against explicit finite-element simulations. In both cases the
-        errors by stretching of the plate and by the finite size of an elastic sphere are added.
+        errors by stretching, finite strains and the finite size of an elastic sphere are added.
     warnings
         Warnings about validity and accuracy.
     scene
@@ -80,7 +80,7 @@ class Result:
     inertia_neglected
         Whether plate inertia is neglected although it may change the results (see `warnings`).
     model_errors
-        Relative model error of each result [1]; `model_error` is the largest of those requested.
+        Relative model errors of the results [1]; `model_error` is the largest of those requested.
     """
 
     contact_time: float

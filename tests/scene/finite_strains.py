@@ -1,9 +1,9 @@
 """A rigid sphere pressed into a plate of three-dimensional finite elements with finite strains.
 
-The elements are those of `derivation.checks.finite_elements`, over r and z. The law between Green's
-strain and the second Piola-Kirchhoff stress is linear. Nodes of the contact face touch the sphere
-without friction, along its normal, in the deformed state. Neither a thin plate nor a half-space nor
-a contact law is assumed.
+The elements are those of `derivation.checks.finite_elements`, over r and z. Unless another solid is
+given, the law between Green's strain and the second Piola-Kirchhoff stress is linear. Nodes of the
+contact face touch the sphere without friction, along its normal, in the deformed state. Neither a
+thin plate nor a half-space nor a contact law is assumed.
 """
 
 from collections.abc import Sequence
@@ -20,6 +20,7 @@ from scipy.sparse.linalg import splu
 from derivation.checks.finite_elements.mesh import Double, Mesh, _growing_intervals
 from derivation.checks.finite_elements.plate import Plate, System, _lagrange, _Reference
 from derivation.plate.edge.remainder import lobatto
+from tests.scene.hyperelastic import Solid, linear
 
 ITERATIONS, CLOSE, SHORTEST = 40, 1e-9, 1e-3
 """Largest number of Newton's iterations; step over the indentation that ends them; shortest step of
@@ -107,11 +108,14 @@ class PressedPlate:
     turns
         Whether the edge may turn by any angle: only its mean deflection is zero, unless it is
         clamped. Otherwise it cannot deflect at any height.
+    solid
+        The response of the plate's material.
     """
 
     system: System
     R: float
     turns: bool = True
+    solid: Solid = linear
 
     @classmethod
     def of(
@@ -217,19 +221,13 @@ class PressedPlate:
             change(over_r, 1.0 + hoop, 0.0 * hoop),
             change(by_z, 1.0 + u_r, w_r) + change(by_r, u_z, 1.0 + w_z),
         )
-        trace, lam, mu = sum(strains[:3]), plate.lam, plate.mu
-        moduli = (2.0 * mu, 2.0 * mu, 2.0 * mu, mu)
-        energy, parts = 0.5 * lam * trace * trace, [lam * trace + 2.0 * mu * e for e in strains]
-        parts[3] = mu * strains[3]
+        energy, parts, moduli = self.solid(strains, plate.lam, plate.mu)
         stresses = [weights * s for s in parts]
-        stiffness = np.swapaxes(sum(changes[:3]), 1, 2) @ (
-            (lam * weights)[..., None] * sum(changes[:3])
-        )
-        forces = np.zeros(index.shape)
-        for strain, by, stress, modulus in zip(strains, changes, stresses, moduli, strict=True):
-            energy = energy + 0.5 * modulus * strain * strain
+        forces, stiffness = np.zeros(index.shape), np.zeros((*index.shape, 2 * n))
+        for by, stress, row in zip(changes, stresses, moduli, strict=True):
             forces += np.einsum("eg,egi->ei", stress, by)
-            stiffness += np.swapaxes(by, 1, 2) @ ((modulus * weights)[..., None] * by)
+            grown = sum((weights * x)[..., None] * changes[j] for j, x in row.items())
+            stiffness += np.swapaxes(by, 1, 2) @ grown
         rr, zz, tt, rz = (s[..., None] for s in stresses)
         across = np.swapaxes(by_r, 1, 2) @ (rz * by_z)
         turning = np.swapaxes(by_r, 1, 2) @ (rr * by_r) + np.swapaxes(by_z, 1, 2) @ (zz * by_z)

@@ -1,9 +1,9 @@
-"""Model error by the finite size of an elastic sphere, and by the motion of both faces.
+"""Model error by the finite size of an elastic sphere, and by finite strains.
 
-The law treats the sphere as a half-space, and strains as infinitely small. Both change the
-indentation at equal force by fractions of the order of a/R. The derivation (step 35) has the first
-order: that of a sphere whose inertia balances the contact pressure, and that by the motion of the
-faces towards the axis. The sphere also vibrates after the impact.
+The law treats the sphere as a half-space. Its finite size changes the indentation at equal force by
+a fraction of the order of a/R. The derivation (step 35) has the first order, for a sphere whose
+inertia balances the contact pressure. The sphere also vibrates after the impact. Finite strains
+(`finite_strains`) have an effect of the same order.
 
 Constants below are measured, by the series of a sphere in Legendre polynomials, whose terms are
 exact, and by impacts of its spheroidal modes; the tests repeat this.
@@ -14,6 +14,12 @@ from typing import Any
 import numpy as np
 
 from derivation.scene import kernels
+from derivation.scene.contact_law.finite_strains import (
+    depth_change,
+    error_of_change,
+    radius_error,
+    sphere_fraction,
+)
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.limits import Values, local_indentation
 from derivation.scene.effects.effect import Results
@@ -33,9 +39,6 @@ relative decrease of the restitution by vibration, over this change and (a/R)^2:
 LOSS = 1.5
 """Change of the logarithm of the restitution e over -log(e) and the change of the indentation: at
 most 0.91 in 128 random elastic and yielding impacts, and 1.0 in 38 that yield, for small e."""
-LARGEST = 0.99
-"""Largest change of the indentation; towards it, the changes of the other results become
-infinite."""
 
 
 def finite_size(nu: Numbers, ratio: Values) -> Values:
@@ -59,28 +62,13 @@ def finite_size(nu: Numbers, ratio: Values) -> Values:
 
 def _of_sphere(law: ContactLaw, a: Values) -> Values:
     """Return the change of the local indentation by the finite size of the sphere [1]."""
-    share = _sphere_fraction(law)
+    share = sphere_fraction(law)
     if not np.any(share):
         return 0.0 * a
     nu: Any = law.model.sphere_poissons_ratio
     ratio = a / law.model.R
     second = ratio * ratio * (SECOND + AUXETIC / (1.0 + nu))
     change: Values = share * (np.abs(finite_size(nu, ratio)) + REST * ratio + second)
-    return change
-
-
-def _sphere_fraction(law: ContactLaw) -> Any:
-    """Return the compliance of the sphere over that of both bodies [1]."""
-    return law.softness / (1.0 + law.softness)
-
-
-def _of_faces(law: ContactLaw, a: Values) -> Values:
-    """Return the change of the local indentation by the motion of both faces [1]."""
-    model, share = law.model, _sphere_fraction(law)
-    moved: Any = share**2 * kernels.face_motion(np.asarray(model.sphere_poissons_ratio))
-    moved = moved + (1.0 - share) ** 2 * kernels.face_motion(np.asarray(model.poissons_ratio))
-    ratio: Any = a / model.R
-    change: Values = moved * ratio
     return change
 
 
@@ -98,8 +86,8 @@ def finite_sphere_error(law: ContactLaw, a: Values, indentation: Values) -> Valu
     part: float | Array = 1.0
     if not law.dynamic:
         part = np.minimum(local_indentation(law, a) / indentation, 1.0)
-    change: Any = np.minimum(part * (_of_sphere(law, a) + _of_faces(law, a)), LARGEST)
-    error: Values = change / (1.0 - change)
+    change: Any = part * (_of_sphere(law, a) + depth_change(law, a))
+    error: Values = error_of_change(change)
     return error
 
 
@@ -112,7 +100,7 @@ def vibration_error(law: ContactLaw, a: Values) -> Values:
         Largest contact radius [m].
     """
     ratio = a / law.model.R
-    least = STIFFER * _sphere_fraction(law) * ratio
+    least = STIFFER * sphere_fraction(law) * ratio
     change: Values = VIBRATION * ratio * ratio * np.maximum(_of_sphere(law, a), least)
     return change
 
@@ -130,8 +118,9 @@ def finite_sphere_errors(law: ContactLaw, numbers: Results, growth: Results) -> 
     _, depth, _, a, restitution = numbers
     size = float(finite_sphere_error(law, a, depth))
     rebound = float(rebound_error(law, a, size, np.asarray(restitution)))
+    wider = float(radius_error(law, a))  # at equal force: the vibration does not increase it
     time, deep, force, radius, speed = growth
-    return time * size, deep * size, force * size, radius * size, speed * rebound
+    return time * size, deep * size, force * size, radius * size + wider, speed * rebound
 
 
 def rebound_error(law: ContactLaw, a: Values, size: Values, restitution: Array) -> Array:

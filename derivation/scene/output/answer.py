@@ -189,13 +189,13 @@ def _in_words(result: "Result") -> dict[str, str]:
     """Return the causes of a model error in words."""
     law, stretching = result.effects.law, "stretching of the plate"
     own = "plate and edge" if result.dynamics is not None else f"the {result.model.edge} edge"
-    sphere = "the finite size of the sphere"
+    strains = "finite strains"
     if law.stretches:
         stretching = "the simplified stretching of the plate"
     return {
         PLATE: own,
         STRETCHING: stretching,
-        SPHERE: sphere if law.softness else "the motion of the faces",
+        SPHERE: f"the finite size of the sphere and {strains}" if law.softness else strains,
         TIMES: "different retardation times of sphere and plate",
         MEASURED: "the measurement of the restitution",
     }

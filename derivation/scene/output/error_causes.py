@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 from derivation.scene.contact_law.finite_sphere import finite_sphere_errors
+from derivation.scene.contact_law.finite_strains import more_than_radius
 from derivation.scene.dynamic.stretching_error import Deflections
 from derivation.scene.dynamic.unlike_bodies import unlike_bodies_errors
 from derivation.scene.effects.effect import Results
@@ -24,7 +25,7 @@ PLATE, STRETCHING, SPHERE, TIMES, MEASURED = (
 def causes(result: "Result", name: str) -> dict[str, float]:
     """Return the parts of the model error of an output [1] by cause: `PLATE` (with edge), ...
 
-    `SPHERE` includes the motion of the faces. Their sum is the model error.
+    `SPHERE` includes finite strains. Their sum is the model error.
     """
     model_error = result.model_errors[name]
     without = errors_of(result, deflections_of_result(result).times(SMALLEST))[name]
@@ -54,7 +55,7 @@ def errors_of(result: "Result", deflections: Deflections) -> dict[str, float]:
 def sphere_errors(
     result: "Result", part: float = 1.0, growth: Results | None = None
 ) -> dict[str, float]:
-    """Return the model errors by the finite size of the sphere and the motion of the faces.
+    """Return the model errors of outputs and pressure by the sphere's finite size and by strains.
 
     Parameters
     ----------
@@ -67,9 +68,10 @@ def sphere_errors(
     time, depth, force, a, restitution = numbers_of(result)
     numbers = time, part**2 * depth, force, part * a, restitution
     growth = growth_of(result.dynamics) if growth is None else growth
-    return dict(
-        zip(OUTPUTS, finite_sphere_errors(result.effects.law, numbers, growth), strict=True)
-    )
+    law = result.effects.law
+    errors = dict(zip(OUTPUTS, finite_sphere_errors(law, numbers, growth), strict=True))
+    pressure = errors["max_contact_radius"] + float(more_than_radius(law, part * a))
+    return errors | {"max_pressure": pressure}
 
 
 def retardation_errors(result: "Result") -> dict[str, float]:

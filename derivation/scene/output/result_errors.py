@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
 FORCE, PLASTICITY = "max_force", "plasticity"
 RESULTS = (*OUTPUTS, "max_pressure", "max_tensile_stress", "total_time", "dent")
-SAME_ERROR = {"max_pressure": "max_contact_radius"}
-"""For max_pressure, the result with the same relative model error: p_0 is proportional to a."""
 OF_OTHERS = {
     "max_pressure": (FORCE, "max_contact_radius"),
     "max_tensile_stress": (FORCE,),
@@ -88,7 +86,7 @@ def _error_of(result: "Result", name: str, bound: float) -> float:
         return bound + result.tensile_stress.error
     if name == "dent":
         return _dent_error(result, result.model_errors[FORCE])
-    return bound + result.model_errors.get(SAME_ERROR.get(name, name), result.model_error)
+    return bound + result.model_errors.get(name, result.model_error)
 
 
 def largest_within_error(result: "Result", name: str) -> float:

@@ -36,8 +36,7 @@ and stretching limits the deflection, see `_thicker`."""
 
 def unusable(result: "Result") -> tuple[str, ...]:
     """Return the names of the results whose own model error is as large as the result."""
-    errors: dict[str, float] = {name: result.model_errors[name] for name in OUTPUTS}
-    errors["max_pressure"] = errors["max_contact_radius"]
+    errors = dict(result.model_errors)
     if math.isfinite(result.max_tensile_stress):
         errors["max_tensile_stress"] = result.tensile_stress.error
     return tuple(name for name, error in errors.items() if error >= NO_DIGITS)
@@ -47,7 +46,8 @@ def in_words(result: "Result") -> str:
     """Return which results are not usable, why, and how to make them usable.
 
     Empty if all are usable. The causes are different retardation times of both bodies or, without
-    them, stretching of the plate and the finite size of the sphere, if they are large enough alone.
+    them, stretching of the plate, and finite size of the sphere together with strains, if they are
+    large enough alone.
     """
     names = unusable(result)
     if not names:
@@ -176,23 +176,26 @@ def _thicker(part: float, size: float) -> float:
 
 
 def _by_sphere(result: "Result") -> str:
-    """Return the remedy if the finite size of the sphere makes results useless."""
+    """Return the remedy if the finite size of the sphere and strains make results useless."""
     error = max(sphere_errors(result).values())
     if error < NO_DIGITS:
         return ""
+    assumes = "takes strains as infinitely small"
+    if result.effects.law.softness:
+        assumes = f"treats the sphere as a half-space and {assumes}"
     speed = _speed_of_sphere(result, growth_of(result.dynamics))
     if max(growth_of(result.dynamics)) > GROWN:
         once = _speed_of_sphere(result, NO_GROWTH)
         speed = f"{once} if the plate does not meet the sphere again, otherwise {speed}"
     return (
         f"The contact radius is {result.max_contact_radius / float(result.model.R):.2g} of the "
-        "sphere's radius, and the model treats the sphere as a half-space "
+        f"sphere's radius, and the model {assumes} "
         f"(error {up_to(error)}). Speed for an error of about {percent(USABLE)}: {speed}."
     )
 
 
 def _speed_of_sphere(result: "Result", growth: Results) -> str:
-    """Return the speed at which the finite size of the sphere is small enough."""
+    """Return the speed at which these errors are small enough."""
     part = _largest(lambda part: max(sphere_errors(result, part, growth).values()) <= USABLE)
     # In a Hertzian contact the radius is proportional to the power 2/5 of the speed.
     return " ".join(prefixed(result.model.v0 * part**2.5, "m/s", 2))

@@ -89,12 +89,12 @@ def errors_of_rows(
         of_results: dict[str, Array] = {name: bounds[name] + model[name] for name in OUTPUTS}
         of_results["max_pressure"] = (
             np.maximum(pressure, _beyond_yield(group, numbers["max_pressure"]))
-            + model["max_contact_radius"]
+            + model["max_pressure"]
         )
         slow = (np.ravel(law.model.density) > 0.0) & (change <= QUASI_STATIC_CHANGE)
         of_results["max_tensile_stress"] = np.where(slow, stress, np.inf)
         largest = np.maximum.reduce([model[name] for name in outputs])
-        compared = on_pressure(OUTPUTS) + model["max_contact_radius"]
+        compared = on_pressure(OUTPUTS) + model["max_pressure"]
     return RowErrors(of_results, bound, largest, bounds, compared, stress)
 
 

@@ -271,11 +271,10 @@ SCENES: dict[str, Tables] = {
 @pytest.mark.one_version
 @pytest.mark.parametrize("name", SCENES)
 def test_typical_scenes_run_at_one_percent(name: str) -> None:
-    tolerance = 0.02 if "echo" in name else 0.01
-    result = simulate(read(SCENES[name]), rtol=tolerance)
+    result = simulate(read(SCENES[name]), rtol=0.01)
     assert result.complete
     assert 0 < result.restitution <= 1.0
-    assert result.accuracy.bound <= tolerance
+    assert result.accuracy.bound <= 0.01
 
 
 def test_golf_drive_is_rejected_before_its_contact_ends(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -34,8 +34,8 @@ def assumed(scene: dict[str, dict[str, Any]]) -> float | None:
 def test_body_yields_below_the_assumed_stress_and_not_above(body: str) -> None:
     stated = assumed(SCENE)
     assert stated
-    # The stated stress includes the model error by the finite size of the sphere.
-    stress = stated / (1.0 + simulate(read(SCENE)).model_errors["max_contact_radius"])
+    # The stated stress includes the model error of the pressure.
+    stress = stated / (1.0 + simulate(read(SCENE)).model_errors["max_pressure"])
     for factor, yields in ((1.01, False), (0.99, True)):
         result = simulate(read(changed(**{body: {"yield_stress": factor * stress}})))
         assert (result.dent > 0.0) == yields

@@ -322,8 +322,10 @@ def test_the_sphere_is_compressed_less_than_a_half_space_where_it_is_incompressi
     assert float(finite_size(-0.5, 0.01)) > 0.0
 
 
-@pytest.mark.parametrize(("nu", "of_face"), [(0.0, 0.2122), (0.22, 0.1523), (0.5, 0.0)])
-def test_error_of_a_rigid_sphere_is_that_of_the_motion_of_the_face(
+@pytest.mark.parametrize(
+    ("nu", "of_face"), [(-0.5, 0.2829), (0.0, 0.2122), (0.22, 0.1523), (0.5, 0.0)]
+)
+def test_error_of_a_rigid_sphere_is_at_least_that_of_the_motion_of_the_face(
     nu: float, of_face: float
 ) -> None:
     rigid = {"radius": 0.01, "density": 7800.0}
@@ -331,5 +333,8 @@ def test_error_of_a_rigid_sphere_is_that_of_the_motion_of_the_face(
     tables = PANE | {"sphere": rigid, "plate": plate, "effects": {"inertia": False}}
     law, a = pc.simulate(pc.read(tables)).effects.law, 1e-4
     size = float(finite_sphere_error(law, a, float(local_indentation(law, a))))
-    assert size / (1.0 + size) == pytest.approx(of_face * 0.01, abs=1e-6)
+    change = size / (1.0 + size)
+    assert change >= 0.01 * of_face - 1e-6
+    if nu <= 0.0:  # finite strains then change less
+        assert change == pytest.approx(0.01 * of_face, abs=1e-6)
     assert vibration_error(law, a) == 0.0

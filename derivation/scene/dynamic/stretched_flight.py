@@ -111,7 +111,7 @@ class FlightProblem:
         plane, modes = self.whole.middle_plane, self.whole.contact.modes
         assert plane is not None
         own = modes.first[: plane.slopes.shape[0]]
-        return own, np.setdiff1d(np.arange(modes.omega.size), own)
+        return own, np.delete(np.arange(modes.omega.size), own)
 
     @cached_property
     def stretched(self) -> DynamicProblem:

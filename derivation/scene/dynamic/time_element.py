@@ -154,8 +154,8 @@ def _stretched(problem: DynamicProblem, nodes: Nodes, forces: Array) -> Array | 
         if _diverges(nodes, q):
             return None
         last, before, pull = size, pull, problem.middle_plane.forces(q)
-        largest = float(np.max(np.abs(pull)))
-        size = float(np.max(np.abs(pull - before))) / largest if largest else 0.0
+        largest = float(np.abs(pull).max())
+        size = float(np.abs(pull - before).max()) / largest if largest else 0.0
         # The changes decrease at least as fast as the last one.
         if size * min(1.0, size / last) <= CLOSE or (size <= NEARLY and size > 0.1 * last):
             return pull
@@ -295,7 +295,7 @@ def _polynomials(
     energy, force = driven.energy, at.force
     if problem.middle_plane:
         energy = energy + problem.middle_plane.energy(at.q)
-    lost, leak = np.zeros_like(force), np.zeros_like(force)
+    lost = leak = np.zeros(force.size)
     if at.load_y is not None:
         modal_forces = at.load_y[:, 1:] / at.load_y[:, :1]
         closing = at.v - np.sum(modal_forces * driven.rates, axis=1)
@@ -304,7 +304,7 @@ def _polynomials(
         elastic = load.forces if load.by_y is None else load.forces - load.by_y * at.y[:, None]
         leak = np.sum((elastic[:, :1] - elastic[:, 1:]) * driven.rates, axis=1) * nodes.rate
     rule = radau(nodes.x.size)
-    rows = at.a, at.v, at.z, force, np.sum(at.q, axis=1), energy, lost, leak
+    rows = at.a, at.v, at.z, force, at.q.sum(axis=1), energy, lost, leak
     ratio = problem.contact.radius_ratio(problem.a * load.a, problem.depth * at.q)
     values = np.array([*rows, driven.damped * nodes.rate, at.a * ratio])
     made = Element(x, length, values @ rule.analysis.T, rule.analysis @ at.y)
@@ -344,7 +344,7 @@ def free_element(
     if problem.middle_plane:
         energy = energy + problem.middle_plane.energy(at.q)
     rule = radau(n)
-    rows = none, at.v, at.z, none, np.sum(at.q, axis=1), energy, none, none
+    rows = none, at.v, at.z, none, at.q.sum(axis=1), energy, none, none
     values = np.array([*rows, driven.damped * nodes.rate, none])
     made = Element(x, length, values @ rule.analysis.T, none)
     stretched = _coefficients(problem, at.q, pull)

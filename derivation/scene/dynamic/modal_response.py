@@ -10,9 +10,9 @@ from derivation.scene.dynamic.problem import DynamicProblem, ImpactState, Part
 from derivation.scene.numerics.collocation import ONSET, radau
 from generated.arrays import Double as Array
 
-SEVERAL = 4
-"""Number of modes per shape from which a matrix for each shape saves time, if the plate does not
-stretch. With stretching the matrices are used more often."""
+SEVERAL, SEVERAL_STRETCHED = 4, 1.5
+"""Number of modes per shape from which a matrix for each shape saves time; the same if the plate
+stretches, because an iteration then uses the matrices more often."""
 
 
 class Nodes(NamedTuple):
@@ -65,13 +65,17 @@ def nodes_of(problem: DynamicProblem, n: int, x: float, length: float, start: Im
     moved, twice = modes.by_shape(free), by_t @ by_t
     approach = start.approach - start.separation_speed * since
     fallen = 0.5 * problem.weight * since**2
-    several = SEVERAL if problem.middle_plane is None else 1
-    many = problem.omega.size > several * modes.phi.size
-    by_force = _matrices(problem, parts, response, by_t) if many else None
+    by_force = _matrices(problem, parts, response, by_t) if _with_matrices(problem) else None
     return Nodes(
         xs, t, since, rate, by_x, by_t, twice, parts, response, free, moved, even, even + moved,
         approach, fallen, by_force,
     )  # fmt: skip
+
+
+def _with_matrices(problem: DynamicProblem) -> bool:
+    """Return whether a matrix for each shape saves time."""
+    several = SEVERAL if problem.middle_plane is None else SEVERAL_STRETCHED
+    return bool(problem.omega.size >= several * problem.contact.modes.phi.size)
 
 
 def _matrices(
@@ -96,7 +100,7 @@ def _matrices(
 
 def _by_mode(factors: Array) -> Array:
     """Return factors of the response, shape (2 modes, nodes)."""
-    return np.ascontiguousarray(factors.transpose(2, 1, 0)).reshape(-1, factors.shape[0])
+    return factors.transpose(2, 1, 0).reshape(-1, factors.shape[0])
 
 
 def _driven_waves(problem: DynamicProblem, nodes: Nodes, part: Part, driven: Array) -> Array:

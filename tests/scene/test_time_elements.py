@@ -12,6 +12,7 @@ from derivation.scene.dynamic import (
     contact_sequence,
     modal_response,
     next_element,
+    time_element,
     time_in_contact,
     waves,
 )
@@ -19,6 +20,7 @@ from derivation.scene.dynamic.contact_sequence import ImpactHistory
 from derivation.scene.dynamic.integration_error import integration_error
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
 from derivation.scene.dynamic.results import dynamic_impact_of
+from derivation.scene.dynamic.stretching_needed import stretched
 from derivation.scene.dynamic.time_element import P, TimeElement
 from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.effects import PAPER
@@ -32,6 +34,8 @@ PANE = {"radius": 0.1, "thickness": 0.01, "material": "glass"}
 MEMBRANE = {"radius": 0.1, "thickness": 0.001, "material": "glass"}
 SOFT = {"radius": 0.1, "thickness": 0.004, "youngs_modulus": 5e9, "poissons_ratio": 0.3,
         "density": 1500.0}  # fmt: skip
+MAT = {"radius": 0.1, "thickness": 0.01, "youngs_modulus": 5e6, "poissons_ratio": 0.4,
+       "density": 1100.0}  # fmt: skip
 THIN = {"radius": 0.016179186329803086, "thickness": 9.9429452933747e-05,
         "youngs_modulus": 21327341609.0786, "poissons_ratio": 0.20670167013477606,
         "density": 7742.978564834313}  # fmt: skip
@@ -89,6 +93,26 @@ def test_results_agree_within_the_tolerance_of_the_elements(
     for history in runs:
         off = np.abs(numbers(law, history) / fine - 1.0)
         assert np.max(off) <= integration_error(history)
+
+
+@pytest.mark.parametrize("tolerance", [1e-8, 1e-11])
+def test_plates_that_stretch_need_no_new_derivative_for_each_step(
+    tolerance: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The response of the shapes is also computed without matrices."""
+    given = scene(MAT, 0.02, 0.6) | {"inertia": {"branches": "all"}}
+    law = stretched(ContactLaw(model_of(read(given)), PAPER | {"inertia"}))
+    problem = problem_of(law, 12)
+    systems, system = list[bool](), time_element._system
+    counted = lambda *given: systems.append(True) or system(*given)  # noqa: E731
+    monkeypatch.setattr(time_element, "_system", counted)
+    actual = numbers(law, contact_sequence.impact_history(problem, 32, tolerance))
+    kept = len(systems)
+    monkeypatch.setattr(time_element, "KEPT", 0.0)
+    monkeypatch.setattr(modal_response, "SEVERAL_STRETCHED", math.inf)
+    expected = numbers(law, contact_sequence.impact_history(problem, 32, tolerance))
+    assert kept < 0.7 * (len(systems) - kept)
+    assert actual == pytest.approx(expected, rel=0.1 * tolerance)
 
 
 def test_curvature_by_waves_belongs_to_the_radii_of_the_element() -> None:

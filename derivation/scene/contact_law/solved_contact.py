@@ -115,7 +115,7 @@ def shape_at(a: Array, case: SolvedCase, limit: float) -> SolvedShape:
     narrow = NARROW * min(case.h, case.b, case.R)
     panels = np.maximum(np.ceil(np.log2(a / narrow)), 0.0)
     shape = np.full((len(SolvedShape._fields), *a.shape), np.nan)
-    for panel in np.unique(panels[np.isfinite(panels)]).tolist():
+    for panel in sorted(set(panels[np.isfinite(panels)].tolist())):
         last = narrow * 2.0**panel
         first = last / 2.0 if panel else 0.0
         within = panels == panel

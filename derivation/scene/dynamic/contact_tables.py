@@ -134,7 +134,7 @@ class ContactTables:
         change = (waves / x**3 - static) / hertz
         lower = np.log(np.maximum(FLATTEST, 1.0 + change))
         narrower = -lower / (polynomials @ self.table[2, :, 0] / force)
-        if np.nanmax(np.abs(lower), initial=0.0) > SMALL:
+        if (np.abs(lower) > SMALL).any():
             narrower = self._narrower(x, force, lower, narrower)
         return np.exp(narrower)
 

@@ -90,10 +90,13 @@ class MiddlePlane:
     def forces(self, q: Array) -> Array:
         """Return the force on each shape for deflections, along the last axis."""
         slope, square = self.squares(q)
-        pull = np.zeros_like(q)
-        pulled = (square @ self.tension * slope) @ self.slopes.T
-        pull[..., : self.slopes.shape[0]] = -self.unit * pulled
-        return pull
+        pull = (square @ self.tension * slope) @ self.slopes.T
+        pull *= -self.unit
+        if pull.shape == q.shape:
+            return np.asarray(pull)
+        every = np.zeros_like(q)
+        every[..., : pull.shape[-1]] = pull
+        return every
 
     def slope_of_forces(self, q: Array) -> Array:
         """Return the derivative of the force on each shape with respect to each deflection.

@@ -10,8 +10,9 @@ from derivation.scene.dynamic.problem import DynamicProblem, ImpactState, Part
 from derivation.scene.numerics.collocation import ONSET, radau
 from generated.arrays import Double as Array
 
-SEVERAL = 4
-"""Number of modes per shape from which a matrix for each shape saves time."""
+SEVERAL, SEVERAL_STRETCHED = 4, 1.5
+"""Number of modes per shape from which a matrix for each shape saves time; the same if the plate
+stretches, because an iteration then uses the matrices more often."""
 
 
 class Nodes(NamedTuple):
@@ -20,8 +21,9 @@ class Nodes(NamedTuple):
     The fields are x; times since the start of the contact and of the element; dt/dx; matrices of
     the integrals from the start of the element over x, over t and twice over t; the modes in parts,
     their response, and their free motion minus uniform motion; for each shape the sum of this
-    difference over its modes; the uniform motion from position and velocity at the start; and, if
-    the shapes have many modes, the matrix of each from forces to deflections at the nodes.
+    difference over its modes; the uniform motion from position and velocity at the start; the sum
+    of both; the approach in uniform motion, and the fall by the weight; and, if the shapes have
+    many modes, the matrix of each from forces to deflections at the nodes.
     """
 
     x: Array
@@ -36,6 +38,9 @@ class Nodes(NamedTuple):
     free: Array
     moved: Array
     even: Array
+    unloaded: Array
+    approach: Array
+    fallen: Array
     by_force: Array | None
 
 
@@ -58,11 +63,19 @@ def nodes_of(problem: DynamicProblem, n: int, x: float, length: float, start: Im
     by_t = by_x * rate
     even = modes.by_shape(start.q) + since[:, None] * modes.by_shape(start.q_dot)
     moved, twice = modes.by_shape(free), by_t @ by_t
-    many = problem.omega.size >= SEVERAL * modes.phi.size
-    by_force = _matrices(problem, parts, response, by_t) if many else None
+    approach = start.approach - start.separation_speed * since
+    fallen = 0.5 * problem.weight * since**2
+    by_force = _matrices(problem, parts, response, by_t) if _with_matrices(problem) else None
     return Nodes(
-        xs, t, since, rate, by_x, by_t, twice, parts, response, free, moved, even, by_force
+        xs, t, since, rate, by_x, by_t, twice, parts, response, free, moved, even, even + moved,
+        approach, fallen, by_force,
     )  # fmt: skip
+
+
+def _with_matrices(problem: DynamicProblem) -> bool:
+    """Return whether a matrix for each shape saves time."""
+    several = SEVERAL if problem.middle_plane is None else SEVERAL_STRETCHED
+    return bool(problem.omega.size >= several * problem.contact.modes.phi.size)
 
 
 def _matrices(
@@ -75,14 +88,19 @@ def _matrices(
     n = by_t.shape[0]
     matrices = np.empty((problem.contact.modes.phi.size, n, n))
     for part in parts:
-        drive = response.drive[..., part.modes] * problem.strength[part.modes]
-        moved = response.moved[..., part.modes]
-        ends = itertools.pairwise([*part.first, part.shape.size])
+        of = response.of(part.modes)
+        drive, moved = _by_mode(of.drive * problem.strength[part.modes]), _by_mode(of.moved)
+        ends = itertools.pairwise([*part.first.tolist(), part.shape.size])
         for shape, (begin, end) in enumerate(ends, part.shapes.start):
-            left, right = (of[..., begin:end].reshape(n, -1) for of in (moved, drive))
-            np.matmul(left, right.T, out=matrices[shape])
+            some = slice(2 * begin, 2 * end)
+            np.matmul(moved[some].T, drive[some], out=matrices[shape])
     matrices *= by_t
     return matrices
+
+
+def _by_mode(factors: Array) -> Array:
+    """Return factors of the response, shape (2 modes, nodes)."""
+    return factors.transpose(2, 1, 0).reshape(-1, factors.shape[0])
 
 
 def _driven_waves(problem: DynamicProblem, nodes: Nodes, part: Part, driven: Array) -> Array:
@@ -113,7 +131,8 @@ def deflection_sums(
 ) -> Array:
     """Return the sum of weighted deflections at each node, per contact force at each node."""
     if nodes.by_force is not None:
-        return np.asarray(np.einsum("is,sik,ks->ik", modal_weights, nodes.by_force, driven))
+        bent = nodes.by_force * driven.T[:, None]
+        return np.asarray((modal_weights[:, None] @ bent.transpose(1, 0, 2))[:, 0])
     n = nodes.t.size
     bent = np.zeros((n, n))
     for part in nodes.parts:

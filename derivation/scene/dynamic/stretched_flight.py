@@ -9,7 +9,7 @@ fewer shapes stretch the plate, usually shows that no contact follows.
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -111,7 +111,7 @@ class FlightProblem:
         plane, modes = self.whole.middle_plane, self.whole.contact.modes
         assert plane is not None
         own = modes.first[: plane.slopes.shape[0]]
-        return own, np.setdiff1d(np.arange(modes.omega.size), own)
+        return own, np.delete(np.arange(modes.omega.size), own)
 
     @cached_property
     def stretched(self) -> DynamicProblem:
@@ -288,12 +288,12 @@ def _piece(
         slow, change = slow_modes(parts.others, others)
         change += margin or 0.0
         steps = ahead * float(np.max(parts.others.omega[slow], initial=0.0)) / STEP
-        rough = np.linspace(-1.0, 1.0, max(4 * n, math.ceil(steps)) + 1)
-        may = may_touch(parts.others, others, at(rough, approach) + change, since(rough), slow)
+        rough, basis = _grid(max(4 * n, math.ceil(steps)) + 1, n)
+        may = may_touch(parts.others, others, basis @ approach + change, since(rough), slow)
         if margin is not None:
             return FlightPiece(made, t, state), bool(np.any(may))
         near = near[(may[:-1] | may[1:])[np.searchsorted(rough, s[1:]).clip(1) - 1]]
-    near = near[overlap_at(s[near]) >= 0.0]
+    near = near[overlap_at(s[near]) >= 0.0] if near.size else near
     if not near.size:
         return FlightPiece(made, t, state), False
     high = float(s[near[0]])
@@ -303,6 +303,13 @@ def _piece(
     if shorter is None:
         raise _unsolved(parts.whole, x)
     return FlightPiece(shorter[0], t, state), True
+
+
+@lru_cache(maxsize=4)
+def _grid(count: int, n: int) -> tuple[Array, Array]:
+    """Return evenly spaced points on [-1, 1], and the values of n Legendre polynomials there."""
+    s = np.linspace(-1.0, 1.0, count)
+    return s, np.asarray(legvander(s, n - 1), dtype=np.float64)
 
 
 def _unsolved(problem: DynamicProblem, x: float) -> IncompleteError:

@@ -37,17 +37,19 @@ def stretching_history(history: ImpactHistory, times: Array) -> StretchingHistor
     plane = problem.middle_plane
     assert plane is not None
     pieces = [piece for touching in history.contacts for piece in _pieces(touching)]
+    elements = [piece.element.element for piece in pieces]
     t = times / problem.T
     place = np.searchsorted([piece.start for piece in pieces], t, side="right") - 1
+    x = np.maximum(t + np.array([piece.shift for piece in pieces])[place], 0.0) ** (1.0 / ONSET)
+    starts, lengths = np.array([(one.x, one.length) for one in elements]).T
+    s = np.minimum(2.0 * (x - starts[place]) / lengths[place] - 1.0, 1.0)
+    basis = legvander(s, elements[0].slope.size - 1)
     pull, tension = np.zeros((t.size, plane.slopes.shape[0])), np.zeros(t.size)
     for index in sorted(set(place[place >= 0].tolist())):
-        here, (_, shift, made) = place == index, pieces[index]
-        assert made.stretched is not None
-        x = np.maximum(t[here] + shift, 0.0) ** (1.0 / ONSET)
-        s = np.minimum(2.0 * (x - made.element.x) / made.element.length - 1.0, 1.0)
-        basis = legvander(s, made.element.slope.size - 1)
-        pull[here] = problem.force * (basis @ made.stretched.pull)
-        tension[here] = basis @ made.stretched.tension
+        here, stretched = place == index, pieces[index].element.stretched
+        assert stretched is not None
+        pull[here] = problem.force * (basis[here] @ stretched.pull)
+        tension[here] = basis[here] @ stretched.tension
     return StretchingHistory(pull, tension)
 
 

@@ -49,6 +49,9 @@ plate; and the contact radius, which differs from that of the law by the curvatu
 CLOSE, NEARLY = 1e-13, 1e-9
 """Relative change of the forces of stretching that is due to rounding, and the same if it does not
 decrease any more."""
+KEPT, FALLING = 1e-2, 0.1
+"""Size of a step, and its size over that of the one before it, up to which the next step has the
+same derivative if the plate stretches: its forces of stretching are one step late in any case."""
 DIVERGED = 1e3
 """Deflection over that of the free motion at which an iteration has diverged."""
 
@@ -138,7 +141,7 @@ def deflections_at(problem: DynamicProblem, nodes: Nodes, radius: float, y: Arra
     forces = _forces_at(problem, nodes, radius, y).forces[:, 1:]
     pull = _stretched(problem, nodes, forces)
     assert pull is not None  # the longer element, of which this one is a part, has a solution
-    return nodes.even + nodes.moved + modal_deflections(problem, nodes, forces + pull)
+    return nodes.unloaded + modal_deflections(problem, nodes, forces + pull)
 
 
 def _stretched(problem: DynamicProblem, nodes: Nodes, forces: Array) -> Array | None:
@@ -147,12 +150,12 @@ def _stretched(problem: DynamicProblem, nodes: Nodes, forces: Array) -> Array | 
     if problem.middle_plane is None:
         return pull
     for _ in range(NEWTON):
-        q = nodes.even + nodes.moved + modal_deflections(problem, nodes, forces + pull)
+        q = nodes.unloaded + modal_deflections(problem, nodes, forces + pull)
         if _diverges(nodes, q):
             return None
         last, before, pull = size, pull, problem.middle_plane.forces(q)
-        largest = float(np.max(np.abs(pull)))
-        size = float(np.max(np.abs(pull - before))) / largest if largest else 0.0
+        largest = float(np.abs(pull).max())
+        size = float(np.abs(pull - before).max()) / largest if largest else 0.0
         # The changes decrease at least as fast as the last one.
         if size * min(1.0, size / last) <= CLOSE or (size <= NEARLY and size > 0.1 * last):
             return pull
@@ -163,13 +166,12 @@ def _free_pull(problem: DynamicProblem, nodes: Nodes, shape: tuple[int, ...]) ->
     """Return the forces of stretching by the free motion, from which an iteration begins."""
     if problem.middle_plane is None:
         return np.zeros(shape)
-    return problem.middle_plane.forces(nodes.even + nodes.moved)
+    return problem.middle_plane.forces(nodes.unloaded)
 
 
 def _diverges(nodes: Nodes, q: Array) -> bool:
     """Return whether deflections exceed those of the free motion far too much, or are unknown."""
-    free = np.max(np.abs(nodes.even + nodes.moved))
-    return not np.max(np.abs(q)) <= DIVERGED * (1.0 + free)
+    return not np.abs(q).max() <= DIVERGED * (1.0 + np.abs(nodes.unloaded).max())
 
 
 def _values(
@@ -177,21 +179,34 @@ def _values(
 ) -> Values:
     """Return the values at the nodes for the forces there and the deflections that they cause."""
     force = load.forces[:, 0]
-    slowed = nodes.by_t @ force
-    fallen = 0.5 * problem.weight * nodes.since**2 - nodes.twice @ force
-    # Uniform motion is separated: the separation speed may be far below both speeds.
-    bent = nodes.moved + bent
+    slowed, fallen = nodes.by_t @ force, nodes.fallen - nodes.twice @ force
+    q, approach = _moved(nodes, fallen, bent)
     return Values(
         load.a,
         load.y,
         start.velocity + problem.weight * nodes.since - slowed,
         start.displacement + start.velocity * nodes.since + fallen,
-        nodes.even + bent,
-        start.approach - start.separation_speed * nodes.since + (fallen - bent.sum(axis=1)),
+        q,
+        approach,
         force,
         load.forces[:, 1:],
         load.by_y,
     )
+
+
+def _moved(nodes: Nodes, fallen: Array, bent: Array) -> tuple[Array, Array]:
+    """Return the deflection of each shape and the approach at the nodes.
+
+    Parameters
+    ----------
+    fallen
+        Displacement of the sphere without uniform motion.
+    bent
+        Deflection of each shape by the forces.
+    """
+    # Uniform motion is separated: the separation speed may be far below both speeds.
+    bent = nodes.moved + bent
+    return nodes.even + bent, nodes.approach + (fallen - bent.sum(axis=1))
 
 
 def element(
@@ -209,7 +224,8 @@ def element(
     The iteration ends when a step would change the radii by at most `enough`, relative to the
     largest of them.
     """
-    nodes, size, found = nodes_of(problem, n, x, length, start), math.inf, False
+    nodes, found = nodes_of(problem, n, x, length, start), False
+    size = before = math.inf
     order = 1 if problem.retardation_time or problem.middle_plane else 2
     pull = _free_pull(problem, nodes, nodes.even.shape)
     for _ in range(NEWTON):
@@ -222,15 +238,17 @@ def element(
         load = _load_at(problem, nodes, a, y, at)
         forces = load.forces[:, 1:]
         if problem.middle_plane is not None:
-            q = nodes.even + nodes.moved + modal_deflections(problem, nodes, forces + pull)
+            q = nodes.unloaded + modal_deflections(problem, nodes, forces + pull)
             if _diverges(nodes, q):
                 return None
             pull = problem.middle_plane.forces(q)
         bent = modal_deflections(problem, nodes, forces + pull)
-        values = _values(problem, nodes, start, load, bent)
-        depth = at.depth / problem.depth + np.vecdot(at.weights_less_one, values.q)
-        system = _system(problem, nodes, at, load, values.q) / nodes.t[:, None]
-        step = newton_step(system, (values.approach - depth) / nodes.t, nodes.by_x, a)
+        q, approach = _moved(nodes, nodes.fallen - nodes.twice @ load.forces[:, 0], bent)
+        depth = at.depth / problem.depth + np.vecdot(at.weights_less_one, q)
+        residual = (approach - depth) / nodes.t
+        if problem.middle_plane is None or size > min(KEPT, FALLING * before):
+            system = _system(problem, nodes, at, load, q) / nodes.t[:, None]
+        step = newton_step(system, residual, nodes.by_x, a)
         if step is None:
             return None
         y, before, size = y + step[0], size, step[1]
@@ -277,7 +295,7 @@ def _polynomials(
     energy, force = driven.energy, at.force
     if problem.middle_plane:
         energy = energy + problem.middle_plane.energy(at.q)
-    lost, leak = np.zeros_like(force), np.zeros_like(force)
+    lost = leak = np.zeros(force.size)
     if at.load_y is not None:
         modal_forces = at.load_y[:, 1:] / at.load_y[:, :1]
         closing = at.v - np.sum(modal_forces * driven.rates, axis=1)
@@ -286,7 +304,7 @@ def _polynomials(
         elastic = load.forces if load.by_y is None else load.forces - load.by_y * at.y[:, None]
         leak = np.sum((elastic[:, :1] - elastic[:, 1:]) * driven.rates, axis=1) * nodes.rate
     rule = radau(nodes.x.size)
-    rows = at.a, at.v, at.z, force, np.sum(at.q, axis=1), energy, lost, leak
+    rows = at.a, at.v, at.z, force, at.q.sum(axis=1), energy, lost, leak
     ratio = problem.contact.radius_ratio(problem.a * load.a, problem.depth * at.q)
     values = np.array([*rows, driven.damped * nodes.rate, at.a * ratio])
     made = Element(x, length, values @ rule.analysis.T, rule.analysis @ at.y)
@@ -326,7 +344,7 @@ def free_element(
     if problem.middle_plane:
         energy = energy + problem.middle_plane.energy(at.q)
     rule = radau(n)
-    rows = none, at.v, at.z, none, np.sum(at.q, axis=1), energy, none, none
+    rows = none, at.v, at.z, none, at.q.sum(axis=1), energy, none, none
     values = np.array([*rows, driven.damped * nodes.rate, none])
     made = Element(x, length, values @ rule.analysis.T, none)
     stretched = _coefficients(problem, at.q, pull)

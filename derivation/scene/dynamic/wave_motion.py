@@ -101,9 +101,14 @@ class DynamicImpact(Motion):
     def deflection_before_separation(self, law: ContactLaw) -> float:
         """Return the largest deflection at the axis [m] up to the end of the last contact."""
         touching = (self.deflection_during(law, i) for i in range(len(self.histories)))
+        return max(*touching, self.deflection_between_contacts)
+
+    @cached_property
+    def deflection_between_contacts(self) -> float:
+        """Largest deflection at the axis in the flights between contacts [m]."""
         contacts = self.impact_history.contacts
         flights = (self._in_flight(one.end, other.start) for one, other in pairwise(contacts))
-        return max(*touching, *flights, 0.0)
+        return max(flights, default=0.0)
 
     def deflection_during(self, law: ContactLaw, contact: int) -> float:
         """Return the largest deflection at the axis [m] during a contact, numbered from 0."""

@@ -120,10 +120,11 @@ def change_of_length(sizes: Array, tolerance: float) -> tuple[float, float]:
 
     Both follow from the sizes of its Legendre coefficients.
     """
-    n, error = sizes.size, float(np.max(sizes[-2:]))
+    n, error = sizes.size, float(sizes[-2:].max())
     if error > tolerance:
         return error, min(0.8, max(0.1, math.pow(0.1 * tolerance / error, 1.0 / n)))
-    needed = n - int(np.argmax(sizes[::-1] > tolerance)) if np.any(sizes > tolerance) else 1
+    larger = sizes > tolerance
+    needed = n - int(larger[::-1].argmax()) if larger.any() else 1
     return error, min(_GROWTH, _SAFETY * n / (needed + 2))
 
 

@@ -59,9 +59,16 @@ def rule(n: int, times: int | None = None) -> Rule:
 
 
 @cache
+def _on_both_sides(n: int) -> tuple[Array, Array]:
+    """Return Gauss' nodes and weights on [-1, 1]."""
+    nodes, weights = leggauss(n)
+    return nodes, weights
+
+
+@cache
 def analysis_of(n: int) -> Array:
     """Return the matrix of the Legendre coefficients of the polynomial through the nodes."""
-    nodes, weights = leggauss(n)
+    nodes, weights = _on_both_sides(n)
     return np.asarray((legvander(nodes, n - 1) * weights[:, None] * (np.arange(n) + 0.5)).T)
 
 
@@ -69,14 +76,14 @@ def analysis_of(n: int) -> Array:
 def derivative(n: int) -> Array:
     """Return the matrix of the slope of a polynomial at the nodes."""
     slopes = legder(np.eye(n), axis=0)
-    return np.asarray(2.0 * legvander(leggauss(n)[0], n - 2) @ slopes @ analysis_of(n))
+    return np.asarray(2.0 * legvander(_on_both_sides(n)[0], n - 2) @ slopes @ analysis_of(n))
 
 
 @cache
 def up_to(n: int) -> Array:
     """Return the matrix of the integral of a polynomial from 0 to each node."""
     integrals = legint(np.eye(n), lbnd=-1, axis=0)
-    return np.asarray(0.5 * legvander(leggauss(n)[0], n) @ integrals @ analysis_of(n))
+    return np.asarray(0.5 * legvander(_on_both_sides(n)[0], n) @ integrals @ analysis_of(n))
 
 
 @cache
@@ -96,5 +103,5 @@ def gauss(n: int) -> tuple[Array, Array]:
 
         nodes, weights = roots_legendre(n)
     else:
-        nodes, weights = leggauss(n)
+        nodes, weights = _on_both_sides(n)
     return ((1.0 + nodes) / 2.0).astype(np.float64), (weights / 2.0).astype(np.float64)

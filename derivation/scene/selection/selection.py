@@ -267,7 +267,7 @@ def selections(
                 sizes = {e.name: sizes_of(state, e, outputs).ravel() for e in candidates}
                 worst = np.where(going_on, _largest([*sizes.values()], clear), -1)
                 branch, going_on = replace(branch, sizes={**branch.sizes, **sizes}), worst >= 0
-                for number in np.unique(worst[going_on]).tolist():
+                for number in sorted(set(worst[going_on].tolist())):
                     add(branch.take(worst == number).adding(candidates[number], given))
             lost = ~(done | going_on)
             if done.any():

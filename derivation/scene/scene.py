@@ -10,14 +10,15 @@ from pydantic import Field, ValidationError
 from derivation.scene.errors import IncompleteError as IncompleteError
 from derivation.scene.errors import SceneError as SceneError
 from derivation.scene.input import old_names
+from derivation.scene.input.bodies import ELASTIC, Positive
 from derivation.scene.input.bodies import Material as Material
 from derivation.scene.input.bodies import Plate as Plate
-from derivation.scene.input.bodies import Positive
 from derivation.scene.input.bodies import Sphere as Sphere
 from derivation.scene.input.body_materials import material_problems
 from derivation.scene.input.example_scenes import remedy
 from derivation.scene.input.included import Effects as Effects
 from derivation.scene.input.messages import LARGEST_NUMBER, OWN_MATERIALS, shown
+from derivation.scene.input.settings import BODIES
 from derivation.scene.input.settings import OUTPUTS as OUTPUTS
 from derivation.scene.input.settings import TIGHTEST as TIGHTEST
 from derivation.scene.input.settings import Accuracy as Accuracy
@@ -151,13 +152,27 @@ class Scene(Table):
 
 
 def _solved_twice(given: Mapping[str, Any]) -> list[str]:
-    """Return a problem if a constant of the plate is both given and to be determined."""
-    measured, plate = given.get("measured"), given.get("plate")
+    """Return a problem if the constant to be determined is given, or of a rigid sphere."""
+    measured = given.get("measured")
     key = measured.get("solve_for") if isinstance(measured, Mapping) else None
-    if not isinstance(key, str) or not isinstance(plate, Mapping) or plate.get(key) is None:
+    if not isinstance(measured, Mapping) or not isinstance(key, str):
         return []
-    expected = f"expected a constant that is not given, got {key}, which is given in [plate]"
-    return [f"measured.solve_for: {expected}; remove plate.{key}, or [measured]"]
+    found, body = [], str(measured.get("body", "plate"))
+    for one in BODIES.get(body, ()):
+        table = given.get(one)
+        if isinstance(table, Mapping) and table.get(key) is not None:
+            expected = (
+                f"expected a constant that is not given, got {key}, which is given in [{one}]"
+            )
+            found.append(f"measured.solve_for: {expected}; remove {one}.{key}, or [measured]")
+    sphere = given.get("sphere")
+    rigid = isinstance(sphere, Mapping) and all(sphere.get(name) is None for name in ELASTIC)
+    if rigid and "sphere" in BODIES.get(body, ()):
+        found.append(
+            f'measured.body: expected "plate", because the sphere is rigid, got "{body}"; change '
+            "it, or add sphere.material or the pair sphere.youngs_modulus, sphere.poissons_ratio"
+        )
+    return found
 
 
 TABLES: dict[str, type[Table]] = {

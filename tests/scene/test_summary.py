@@ -71,6 +71,22 @@ def test_a_small_energy_of_the_sphere_has_digits_of_its_own() -> None:
     assert balance.in_words(1e-3) == "0.5 " + words.format(51.1, 48.5)
 
 
+@pytest.mark.parametrize("error", [0.62, 1.2, 2.5])
+def test_energy_of_a_sphere_that_hardly_rebounds_has_a_bound(error: float) -> None:
+    """An earlier version showed "unknown" for hail on a bonnet, whose restitution is about 0.1."""
+    balance = EnergyBalance(
+        initial_kinetic=2.0, gravity_work=0.0, rebound_kinetic=0.02, viscous_loss=0.0,
+        unrecovered_elastic=0.0, plate=1.98,
+    )  # fmt: skip
+    words = balance.in_words(error)
+    stated = re.fullmatch(r"up to (\S+) % sphere, the rest plate vibration", words)
+    assert stated
+    assert 1.0 <= float(stated[1]) / (1.0 + error) ** 2 <= 2.0
+    both = replace(balance, plate=1.0, damping_loss=0.98)
+    assert both.in_words(error) == "unknown"  # the shares of these two are unknown
+    assert replace(balance, rebound_kinetic=1.9, plate=0.1).in_words(error) == "unknown"
+
+
 @given(
     st.floats(1e-12, 1e12) | st.floats(-1e12, -1e-12),
     st.integers(2, 12),

@@ -13,6 +13,7 @@ import numpy as np
 from derivation.scene.contact_law.law import ContactLaw
 from derivation.scene.contact_law.yielding import onset_of
 from derivation.scene.input.body_materials import body_of, own_materials
+from derivation.scene.input.settings import BODIES
 from derivation.scene.quantity import ROUNDED, prefixed, upwards
 from derivation.scene.scene import Scene
 from generated.arrays import Double as Array
@@ -102,9 +103,10 @@ def assumed_yield_stress(scene: Scene, pressure: float, bending: float) -> str:
         Largest tensile stress on the back face of the plate [Pa].
     """
     own, contact = own_materials(scene.materials), pressure / YIELD_LIMIT
-    bodies = {"sphere": body_of(scene.sphere, own)}
-    if scene.measured is None or scene.measured.solve_for != "yield_stress":
-        bodies["plate"] = body_of(scene.plate, own)
+    bodies = {"sphere": body_of(scene.sphere, own), "plate": body_of(scene.plate, own)}
+    if scene.measured is not None and scene.measured.solve_for == "yield_stress":
+        for determined in BODIES[scene.measured.body]:
+            del bodies[determined]
     assumed = {
         name: max(contact, bending) if name == "plate" else contact
         for name, body in bodies.items()

@@ -12,6 +12,8 @@ from derivation.scene.input.table import Table, is_number
 Positive = Annotated[float, Field(gt=0, ge=SMALLEST_NUMBER, le=LARGEST_NUMBER)]
 Ratio = Annotated[float, Field(gt=-1, lt=0.5)]
 Edge = Literal["paper", "simply-supported", "clamped"]
+ELASTIC = ("material", "youngs_modulus", "poissons_ratio")
+"""The keys of a sphere without which it is rigid."""
 
 
 class Sphere(Table):
@@ -57,8 +59,7 @@ class Sphere(Table):
     def conflicts(cls, given: Mapping[str, Any]) -> list[str]:
         """Return the problems of the keys, among them yield or retardation of a rigid sphere."""
         problems = super().conflicts(given)
-        elastic = ("material", "youngs_modulus", "poissons_ratio")
-        if all(given.get(key) is None for key in elastic):
+        if all(given.get(key) is None for key in ELASTIC):
             problems += [
                 f"sphere.{key}: expected an elastic sphere, got a rigid sphere; add "
                 f"sphere.material or the pair sphere.youngs_modulus, sphere.poissons_ratio, or "

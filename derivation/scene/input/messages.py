@@ -47,6 +47,7 @@ EXPECTED = {
     "extent": '"finite" or "infinite"',
     "restitution": "a number above 0 and below 1",
     "solve_for": '"yield_stress" or "retardation_time"',
+    "body": '"plate", "sphere" or "both"',
     "target": '"block" or "plate"',
 }
 """Expected value of each key whose value is not a positive number."""

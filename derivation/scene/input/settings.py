@@ -123,8 +123,12 @@ class Inertia(Table):
     )
 
 
+BODIES = {"plate": ("plate",), "sphere": ("sphere",), "both": ("sphere", "plate")}
+"""The tables with the constant that a measurement determines, by its key `body`."""
+
+
 class Measured(Table):
-    """A measured restitution, from which a material constant of the plate is determined.
+    """A measured restitution, from which a material constant of a body is determined.
 
     Parameters
     ----------
@@ -132,6 +136,9 @@ class Measured(Table):
         Measured rebound speed over impact speed [1], above 0 and below 1.
     solve_for
         Constant to determine: "yield_stress" or "retardation_time".
+    body
+        Body whose constant is determined: "plate", the default; "sphere", for example of a golf
+        ball; or "both", if both have the same constant.
     target
         Test specimen: "block", the default, for a thick block of the plate material; "plate" for
         the plate itself. The weight of the sphere acts on either, if the scene has gravity.
@@ -155,7 +162,12 @@ class Measured(Table):
         description="measured rebound speed over impact speed [1]", examples=[0.6]
     )
     solve_for: Literal["yield_stress", "retardation_time"] = Field(
-        description="material constant of the plate to determine", examples=["yield_stress"]
+        description="material constant to determine", examples=["yield_stress"]
+    )
+    body: Literal["plate", "sphere", "both"] = Field(
+        default="plate",
+        description="body whose constant is determined; both: the same constant of both bodies",
+        examples=["sphere"],
     )
     target: Literal["block", "plate"] = Field(
         default="block",

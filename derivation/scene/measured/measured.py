@@ -1,4 +1,4 @@
-"""Determines the yield stress or retardation time of the plate from a measured restitution.
+"""Determines the yield stress or retardation time of a body from a measured restitution.
 
 The restitution was measured on a thick block, which does not vibrate, or on the plate itself. The
 impact is simulated repeatedly until the restitution agrees.
@@ -14,7 +14,8 @@ from derivation.scene.dynamic.contact_errors import rounded_down
 from derivation.scene.effects.effect import NO_BOUND
 from derivation.scene.errors import SceneError, Slower, ToleranceError
 from derivation.scene.input.settings import TIGHTEST
-from derivation.scene.measured.measurement import UNITS, Measurement
+from derivation.scene.measured.constant import UNITS, name_of, with_constant
+from derivation.scene.measured.measurement import Measurement
 from derivation.scene.measured.narrowing import AGREES
 from derivation.scene.measured.rough_search import is_repeated, rough_value, searched_value
 from derivation.scene.measured.scan import value_near
@@ -97,18 +98,19 @@ def fitted(scene: "Scene") -> "Scene":
     """
     from derivation.scene.scene import read
 
-    assert scene.measured is not None
-    tables = scene.to_json()
+    wanted, tables = scene.measured, scene.to_json()
+    assert wanted is not None
     del tables["measured"]
-    return read(tables | {"plate": tables["plate"] | {scene.measured.solve_for: solved(scene)}})
+    return read(with_constant(tables, wanted.solve_for, wanted.body, solved(scene)))
 
 
 def without_constant(scene: "Scene") -> "Scene":
-    """Return the scene of a measurement with a plate that loses no energy by the constant."""
-    assert scene.measured is not None
-    tables = scene.to_json()
+    """Return the scene of a measurement in which no energy is lost by the constant."""
+    wanted, tables = scene.measured, scene.to_json()
+    assert wanted is not None
     del tables["measured"]
-    return Measurement(tables, scene.measured.solve_for, scene.measured.restitution).scene(None)
+    one = Measurement(tables, wanted.solve_for, wanted.restitution, body=wanted.body)
+    return one.scene(None)
 
 
 def toleranced(scene: "Scene", rtol: float | None) -> "Scene":
@@ -164,7 +166,7 @@ def in_words(scene: "Scene") -> str:
     value = " ".join(filter(None, prefixed(solved(scene), UNITS[wanted.solve_for], digits)))
     specimen = "a thick block" if wanted.target == "block" else "the plate"
     return (
-        f"plate.{wanted.solve_for} = {value}, from the restitution "
+        f"{name_of(wanted.solve_for, wanted.body)} = {value}, from the restitution "
         f"{wanted.restitution:g} measured on {specimen} at "
         f"{wanted.tested_at or scene.impact.speed:g} m/s"
     )
@@ -182,8 +184,8 @@ def ambiguity_warnings(scene: "Scene") -> tuple[str, ...]:
     elif not fit.repeated:
         return ()
     text = (
-        f"{why}: other values of plate.{wanted.solve_for} may have the measured restitution, too, "
-        "but other results, which no error bound includes"
+        f"{why}: other values of {name_of(wanted.solve_for, wanted.body)} may have the measured "
+        "restitution, too, but other results, which no error bound includes"
     )
     return (text,)
 

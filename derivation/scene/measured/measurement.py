@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Any
 from derivation.scene.effects import BY_NAME
 from derivation.scene.errors import HeldError, SceneError, Slower, WideContactError
 from derivation.scene.input.body_materials import body_of, own_materials
-from derivation.scene.input.settings import TIGHTEST
+from derivation.scene.input.settings import BODIES, TIGHTEST
+from derivation.scene.measured.constant import EFFECTS, UNITS, name_of, with_constant
 from derivation.scene.measured.narrowing import ROUGH, near_solution, solution
 from derivation.scene.measured.trial import (
     ExceedsError,
@@ -29,11 +30,6 @@ from derivation.scene.measured.trial import (
 if TYPE_CHECKING:
     from derivation.scene.scene import Scene
 
-UNITS = {"yield_stress": "Pa", "retardation_time": "s"}
-EFFECTS = {"yield_stress": "plasticity", "retardation_time": "viscosity"}
-"""The effect of each constant."""
-LOSSLESS = {"yield_stress": 1e30, "retardation_time": 1e-30}
-"""Value of each constant at which the plate loses no energy by it: the limits of the keys."""
 EARLY = 1e-2
 """First trial value of the retardation time over the contact time without viscosity [1]."""
 UNDERESTIMATE = 0.8
@@ -67,7 +63,7 @@ class Measurement:
     tables
         The tables of its scene.
     key
-        The constant of the plate to determine.
+        The constant to determine.
     goal
         The measured restitution [1].
     part
@@ -76,6 +72,8 @@ class Measurement:
         simulations with an error bound.
     work
         Largest work of each of these, in the units of `contact_sequence.WORK` [1].
+    body
+        Which bodies have it: "plate", "sphere" or "both".
     """
 
     tables: Mapping[str, Any]
@@ -83,9 +81,15 @@ class Measurement:
     goal: float
     part: float = 0.0
     work: float = math.inf
+    body: str = "plate"
     _trials: dict[tuple[float | None, bool], Trial] = field(
         init=False, default_factory=dict, repr=False, compare=False
     )
+
+    @property
+    def name(self) -> str:
+        """The name of the constant in messages."""
+        return name_of(self.key, self.body)
 
     @property
     def static(self) -> bool:
@@ -99,7 +103,7 @@ class Measurement:
         return replace(self, tables=dict(self.tables) | {"accuracy": accuracy})
 
     def simulated(self, value: float | None, within: bool = False) -> Trial:
-        """Simulate the impact with a trial value; without one, the plate has no such constant.
+        """Simulate the impact with a trial value; without one, no energy is lost by the constant.
 
         Parameters
         ----------
@@ -149,15 +153,17 @@ class Measurement:
         return Trial(numbers, pressure, bound, errors, contacts)
 
     def scene(self, value: float | None) -> "Scene":
-        """Return the scene with a trial value; without one, the plate loses no energy by it."""
+        """Return the scene with a trial value; without one, no energy is lost by the constant."""
         from derivation.scene.scene import read
 
-        plate = self.tables["plate"] | {self.key: LOSSLESS[self.key] if value is None else value}
-        scene = read(dict(self.tables) | {"plate": plate})
-        of_sphere = getattr(body_of(scene.sphere, own_materials(scene.materials)), self.key)
-        lossy = value is not None or of_sphere not in (0.0, math.inf)
+        tables = with_constant(self.tables, self.key, self.body, value)
+        scene = read(tables)
+        own = own_materials(scene.materials)
+        bodies = {"sphere": body_of(scene.sphere, own), "plate": body_of(scene.plate, own)}
+        others = (getattr(bodies[one], self.key) for one in bodies.keys() - BODIES[self.body])
+        lossy = value is not None or any(other not in (0.0, math.inf) for other in others)
         effects = self.tables.get("effects", {}) | {EFFECTS[self.key]: lossy}
-        return read(dict(self.tables) | {"plate": plate, "effects": effects})
+        return read(tables | {"effects": effects})
 
     def lossless(self, margin: float = 0.0) -> Trial:
         """Return the measurement without energy loss by the constant.
@@ -194,7 +200,7 @@ class Measurement:
             named, how = f"about {lossless.restitution:.3g}", " (estimated with few modes)"
         raise ExceedsError(
             f"measured.restitution: expected less than {named}, the restitution without a "
-            f"plate.{self.key}{how}, got {self.goal:.6g}; correct measured.restitution or "
+            f"{self.name}{how}, got {self.goal:.6g}; correct measured.restitution or "
             "measured.target"
         )
 
@@ -257,7 +263,7 @@ class Measurement:
             raise kind(
                 "measured.restitution: expected a value that can be computed, got "
                 f"{self.goal:.6g}, for which the simulation of the measurement fails with "
-                f"plate.{self.key} = {math.exp(x):.6g} {UNITS[self.key]} "
+                f"{self.name} = {math.exp(x):.6g} {UNITS[self.key]} "
                 f"({str(error).partition(';')[0]}); {remedy}correct measured.restitution or "
                 "measured.target"
             ) from None
@@ -326,7 +332,7 @@ class Measurement:
             # The first value is already beyond that of the smallest restitution.
             points, step, rising, back = points[::-1], -step, 0, True
         raise SceneError(
-            f"measured.restitution: expected a value that some plate.{self.key} gives, got "
+            f"measured.restitution: expected a value that some {self.name} gives, got "
             f"{self.goal:.6g}, which none of the values tried from {math.exp(first):.6g} to "
             f"{math.exp(now.x):.6g} {UNITS[self.key]} gives; correct it, or change "
             "measured.solve_for"
@@ -364,7 +370,7 @@ class Measurement:
             return self.below(smallest, least, math.exp(lowest.x))
         return UnreachedError(
             f"measured.restitution: expected about {lossless.restitution:.3g}, the restitution "
-            f"without a plate.{self.key}, which none of the tried values reduces, got "
+            f"without a {self.name}, which none of the tried values reduces, got "
             f"{self.goal:.6g}; correct measured.restitution or measured.target, or change "
             "measured.solve_for",
             least,
@@ -385,7 +391,7 @@ class Measurement:
         """Return the error of a restitution below the smallest one, which a constant gives."""
         return UnreachedError(
             f"measured.restitution: expected at least about {smallest:.3g}, the smallest "
-            f"restitution that a plate.{self.key} was found to give, at about {value:.2g} "
+            f"restitution that a {self.name} was found to give, at about {value:.2g} "
             f"{UNITS[self.key]}, got {self.goal:.6g}; correct measured.restitution or "
             "measured.target",
             least,

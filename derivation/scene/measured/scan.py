@@ -13,7 +13,8 @@ from contextlib import suppress
 from itertools import pairwise
 
 from derivation.scene.errors import SceneError
-from derivation.scene.measured.measurement import FACTOR, UNITS, Measurement
+from derivation.scene.measured.constant import UNITS
+from derivation.scene.measured.measurement import FACTOR, Measurement
 from derivation.scene.measured.narrowing import near_solution, solution
 from derivation.scene.measured.trial import (
     ExceedsError,
@@ -185,7 +186,7 @@ def _unreached(measurement: Measurement, best: Point, rejected: SceneError) -> S
     how = " (estimated with few modes)" if measurement.part else ""
     return ExceedsError(
         f"measured.restitution: expected less than about {restitution:.3g}, the largest "
-        f"restitution that a plate.{measurement.key} was found to give{how}, at about {value:.2g} "
+        f"restitution that a {measurement.name} was found to give{how}, at about {value:.2g} "
         f"{UNITS[measurement.key]}, got {measurement.goal:.6g}; correct measured.restitution or "
         "measured.target"
     )

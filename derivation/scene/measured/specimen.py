@@ -12,11 +12,11 @@ BLOCK = 1e4
 
 def measurement_of(tables: Mapping[str, Any], wanted: Mapping[str, Any]) -> Measurement:
     """Return the measurement on a thick block or on the plate, from the tables of a scene."""
-    key, goal = wanted["solve_for"], wanted["restitution"]
+    key, goal, body = wanted["solve_for"], wanted["restitution"], wanted.get("body", "plate")
     speed = wanted.get("tested_at", tables["impact"]["speed"])
     scene = dict(tables) | {"impact": tables["impact"] | {"speed": speed}}
     if wanted.get("target", "block") == "plate":
-        on_plate = _with_one_plate(Measurement(scene, key, goal))
+        on_plate = _with_one_plate(Measurement(scene, key, goal, body=body))
         return on_plate.to(STATIC_RTOL) if on_plate.static else on_plate
     size = BLOCK * tables["sphere"]["radius"]
     shape = "radius", "thickness", "half_thickness", "edge", "tensile_strength"
@@ -28,7 +28,7 @@ def measurement_of(tables: Mapping[str, Any], wanted: Mapping[str, Any]) -> Meas
     effects |= still | {"inertia": False, "non_hertzian_pressure": False}
     kept = {k: v for k, v in scene.items() if k in ("sphere", "materials")}
     made = {"plate": block, "effects": effects, "impact": scene["impact"]}
-    return Measurement(kept | made, key, goal).to(STATIC_RTOL)
+    return Measurement(kept | made, key, goal, body=body).to(STATIC_RTOL)
 
 
 def _with_one_plate(measured: Measurement) -> Measurement:

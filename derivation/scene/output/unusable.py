@@ -77,7 +77,13 @@ def _by_retardation(result: "Result") -> str:
     compliance = max(model.softness, 1.0) / (1.0 + model.softness)
     alone = model.retardation_time / compliance
     spread = alone * math.sqrt(compliance * (1.0 - compliance))
-    if error * (spread / model.retardation_spread) ** 2 < NO_DIGITS:
+    one_body = error * (spread / model.retardation_spread) ** 2 < NO_DIGITS
+    measured = result.scene.measured
+    if measured is not None and measured.solve_for == "retardation_time":
+        body = softer if one_body else "both"
+        whose = f"the {softer}, the softer body, causes" if one_body else "both bodies cause"
+        return f'{why} If {whose} the loss, set measured.body = "{body}".'
+    if one_body:
         time, unit = prefixed(alone, "s", 4)
         return (
             f"{why} If the {softer}, the softer body, causes the loss, give it alone "

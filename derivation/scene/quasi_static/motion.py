@@ -11,6 +11,7 @@ sphere then only the number of nodes in time is doubled.
 """
 
 import math
+from collections.abc import Set
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -21,7 +22,7 @@ from derivation.scene.contact_law.limits import check_numbers, refuse
 from derivation.scene.effects.effect import Numbers
 from derivation.scene.errors import SceneError
 from derivation.scene.numerics.quadrature import MORE_TIMES, NODES, Rule, mapped, rule
-from derivation.scene.quantity import digits_of
+from derivation.scene.quantity import digits_of, upwards
 from generated.arrays import Double as Array
 
 HISTORY_NODES = (32, *MORE_TIMES)
@@ -43,6 +44,8 @@ _ROUNDED = 1e-12
 """Step below which the iteration ends if the step is not smaller than the one before."""
 MOST_PERCENT_DIGITS = 3
 """Largest number of significant digits of an energy that are shown."""
+MOST_BOUNDED = 50.0
+"""Largest bound on the energy of the sphere that is stated without digits of the energies [%]."""
 NOTABLE_WORK = 5e-3
 """Least work of the weight over the initial kinetic energy that is stated with the energies."""
 
@@ -88,7 +91,8 @@ class EnergyBalance:
         error
             Relative error of the restitution [1]; that of the energies is twice as large. All are
             rounded to the last significant digit of the largest one, but a smaller energy of the
-            sphere is rounded to its own last significant digit.
+            sphere is rounded to its own last significant digit. Without a digit, only a bound on
+            the energy of the sphere is stated.
         """
         parts = {
             "sphere": self.rebound_kinetic,
@@ -101,7 +105,7 @@ class EnergyBalance:
         digits = min(digits_of(2.0 * error), MOST_PERCENT_DIGITS)
         largest = 100.0 * max(map(abs, parts.values())) / self.initial_kinetic
         if not (digits and 0.0 < largest < math.inf):
-            return "unknown"
+            return self._bounded({name for name, energy in parts.items() if energy}, error)
         last = _last_place(largest, digits)
         places, rebound = dict.fromkeys(parts, last), 100.0 * parts["sphere"] / self.initial_kinetic
         if 0.0 < rebound < 0.5 * 10.0**last:
@@ -115,6 +119,15 @@ class EnergyBalance:
             return words
         weight = self._percent(self.gravity_work, last)
         return f"{words}; the weight contributes {weight} (in % of the kinetic energy at impact)"
+
+    def _bounded(self, parts: Set[str], error: float) -> str:
+        """Return a bound on the energy of the sphere, if that of one other part is the rest."""
+        most = 100.0 * self.rebound_kinetic / self.initial_kinetic * (1.0 + error) ** 2
+        weighs = abs(self.gravity_work) >= NOTABLE_WORK * self.initial_kinetic
+        if len(parts - {"sphere"}) != 1 or weighs or not most < MOST_BOUNDED:
+            return "unknown"
+        (rest,) = parts - {"sphere"}
+        return f"up to {upwards(most, 1):g} % sphere, the rest {rest}"
 
     def _percent(self, energy: float, last: int) -> str:
         """Return an energy in percent, rounded to a power of ten."""

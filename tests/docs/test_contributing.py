@@ -103,7 +103,9 @@ def prove_new(name, arguments, statements, results, claims, *others):
 routines.routine = prove_new
 from derivation.plate.waves.theory import bending_branch
 named = {formula.name: formula for _, records in steps for formula in records}
-bending_branch.bending_fraction = lambda: named["bending_fraction"]  # it is derived in seconds
+# Each is derived in seconds.
+bending_branch.bending_fraction = lambda: named["bending_fraction"]
+bending_branch.rayleigh = lambda: (named["rayleigh_cubic"], named["rayleigh_residue"])
 from derivation.plate import blocks, derived, forms, render
 from derivation.plate.chain import MOTION_STEPS
 from derivation.plate.modules import printed_modules

@@ -22,7 +22,7 @@ import dataclasses
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
@@ -117,11 +117,17 @@ def edge_displacement(case: RemainderCase, a: float, z: Double, modes: int = MOD
     j = bessel_j0_zeros(modes)
     slope = bessel_j1_at_j0_zeros(modes)
     A = A_j(j, 1.0, RADIUS, a, case.lam, 1.0, slope)
-    shapes = mode_g(z[:, None], j, case.h, case.lam, 1.0, A)
-    terms: Double = shapes * j * slope
+    terms: Double = _mode_shapes(tuple(z), case.h, case.lam, modes) * (A * j * slope)
     # The last term is halved, because the sum alternates.
     total: Double = terms.sum(axis=1) - 0.5 * terms[:, -1]
     return total
+
+
+@lru_cache(maxsize=2)
+def _mode_shapes(z: tuple[float, ...], h: float, lam: float, modes: int) -> Double:
+    """Return `mode_g` under A_j = 1 at all heights, which all contact radii and edges need."""
+    shapes: Double = mode_g(np.array(z)[:, None], bessel_j0_zeros(modes), h, lam, 1.0, 1.0)
+    return shapes
 
 
 def moments(u: Double, z: Double, weights: Double, h: float) -> tuple[float, float]:
@@ -219,6 +225,13 @@ class Elements:
         return block, numbers
 
 
+@lru_cache(maxsize=2)
+def _stiffness(h: float, lam: float, mesh: RemainderMesh) -> Any:
+    """Return the matrix of a round plate without its edge conditions."""
+    whole = Elements(radii(h, mesh.layers), heights(h, mesh.layers), mesh.degree)
+    return whole.stiffness(lam, round_plate=True)
+
+
 def factorised(matrix: Any) -> Any:
     """Return SciPy's factors of a symmetric and positive definite matrix, without pivoting."""
     from scipy.sparse.linalg import splu
@@ -235,7 +248,7 @@ class Field(Elements):
     """The remainder's finite-element system on one mesh."""
 
     def __init__(self, case: RemainderCase, mesh: RemainderMesh) -> None:
-        self.case = case
+        self.case, self.mesh = case, mesh
         super().__init__(radii(case.h, mesh.layers), heights(case.h, mesh.layers), mesh.degree)
 
     def added(self, widths: Sequence[float], *, states: bool = True) -> list[tuple[float, float]]:
@@ -269,7 +282,7 @@ class Field(Elements):
     def _solved(self, widths: Sequence[float], states: bool) -> list[Double]:
         """Return the displacements at all nodes, by a/b."""
         case, ring = self.case, np.arange(self.rows)
-        matrix = self.stiffness(case.lam, round_plate=True)
+        matrix = _stiffness(case.h, case.lam, self.mesh)
         axis = self.number(np.zeros_like(ring), ring, 0)
         at_edge = [self.number(np.full_like(ring, self.columns - 1), ring, part) for part in (0, 1)]
         held = at_edge if case.support == "clamped" else at_edge[1:]

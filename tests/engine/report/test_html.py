@@ -68,11 +68,6 @@ def page_of(body: str) -> str:
 
 
 @pytest.fixture(scope="module")
-def texts() -> dict[str, Text]:
-    return report_files.documents(PAPER)
-
-
-@pytest.fixture(scope="module")
 def pages(written: tuple[Path, ...]) -> dict[str, str]:
     return {path.stem: path.read_text() for path in written if path.suffix == ".html"}
 

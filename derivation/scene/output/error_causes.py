@@ -23,14 +23,15 @@ PLATE, STRETCHING, SPHERE, TIMES, MEASURED = (
 
 
 def causes(result: "Result", name: str) -> dict[str, float]:
-    """Return the parts of the model error of an output [1] by cause: `PLATE` (with edge), ...
+    """Return the parts of the model error of a result [1] by cause: `PLATE` (with edge), ...
 
     `SPHERE` includes finite strains. Their sum is the model error.
     """
     model_error = result.model_errors[name]
     without = errors_of(result, deflections_of_result(result).times(SMALLEST))[name]
     stretching = max(model_error - without, 0.0)
-    sphere, times = sphere_errors(result)[name], retardation_errors(result)[name]
+    sphere, unlike = sphere_errors(result)[name], retardation_errors(result)
+    times = unlike["max_contact_radius" if name == "max_pressure" else name]
     measured = model_error_of(result.scene)
     plate = max(model_error - stretching - sphere - times - measured, 0.0)
     parts = {PLATE: plate, STRETCHING: stretching, SPHERE: sphere, TIMES: times}

@@ -119,9 +119,9 @@ class Measurement:
             self._trials[value, within] = self._simulated(value, within)
         return self._trials[value, within]
 
-    def trials(self) -> list[Trial]:
-        """Return the results of all simulations until now."""
-        return list(self._trials.values())
+    def trials(self) -> dict[float, Trial]:
+        """Return the results of all simulations with values of the constant until now."""
+        return {value: trial for (value, _), trial in self._trials.items() if value is not None}
 
     def _simulated(self, value: float | None, within: bool) -> Trial:
         from derivation.scene.contact_law.limits import check_radius

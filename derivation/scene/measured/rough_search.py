@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from derivation.scene.errors import SceneError
 from derivation.scene.measured.measurement import OF_LOSS, Measurement
-from derivation.scene.measured.scan import repeats, searched
+from derivation.scene.measured.scan import HALVED, repeats, searched
 from derivation.scene.measured.trial import (
     IncompleteTrialError,
     Trial,
@@ -53,8 +53,8 @@ def rough_value(loose: Measurement) -> float | None:
     few, half = (replace(loose, part=part) for part in (PART, HALF))
     try:
         return _steady_value(loose, few, half)
-    except IncompleteTrialError:
-        raise
+    except IncompleteTrialError as rejected:
+        raise _far_below(few, half) or rejected from None
     except SceneError as rejected:
         return searched_value(half, rejected)
 
@@ -92,6 +92,21 @@ def is_repeated(loose: Measurement, value: float, found: Trial) -> bool:
         The value and its results.
     """
     return repeats(replace(loose, part=HALF), value, found)
+
+
+def _far_below(few: Measurement, half: Measurement) -> UnreachedError | None:
+    """Return the error of a restitution far below all that were found; None if it is not.
+
+    With a larger loss of energy the impact has too many contacts or time steps.
+    """
+    found = [
+        (trial.restitution, value, one)
+        for one in (few, half)
+        for value, trial in one.trials().items()
+    ]
+    least, value, one = min(found, key=lambda item: item[0], default=(0.0, 0.0, half))
+    far = least > (1.0 + HALVED) * half.goal
+    return one.below(least, least, value) if far else None
 
 
 def _steady_value(loose: Measurement, few: Measurement, half: Measurement) -> float | None:

@@ -64,7 +64,7 @@ def values_of(key: str, lossless: Trial) -> list[float]:
 
 def touches_again(half: Measurement, lossless: Trial) -> bool:
     """Return whether some value of the constant gives several contacts."""
-    if lossless.contacts > 1 or any(trial.contacts > 1 for trial in half.trials()):
+    if lossless.contacts > 1 or any(trial.contacts > 1 for trial in half.trials().values()):
         return True
     unit = lossless.max_pressure if half.key == "yield_stress" else lossless.contact_time
     return any(_contacts(half, part * unit) > 1 for part in LOSSY[half.key])

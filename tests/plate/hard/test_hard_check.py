@@ -148,11 +148,12 @@ def test_command_lists_every_case(capsys: pytest.CaptureFixture[str]) -> None:
     status = main(["check", "hard-cases", "--json", "-"])
     shown, known = json.loads(capsys.readouterr().out), json.loads(PAPER.hard.read_text())
     assert status == (0 if all(row["passed"] for row in shown["cases"]) else 1)
-    # Rounding of matrix products and linear solvers depends on the linear-algebra library, so
-    # another result may be the closest to its limit.
+    assert all(row["passed"] for row in shown["cases"])
+    # The rounding of NumPy's functions depends on the instructions of the processor, and that of
+    # linear solvers on their library: errors and limits differ, and which of them are stated.
     for row in (*shown["cases"], *known["cases"]):
-        if row["kernel"] in ("pressure", "contact", "supported_waves"):
-            del row["error"], row["allowed"]
+        for key in ("error", "allowed", "printed"):
+            row[key] = row[key] is not None
     del shown["provenance"]["python"], known["provenance"]["python"]
     assert shown == known
 

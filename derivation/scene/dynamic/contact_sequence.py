@@ -365,8 +365,9 @@ def contact(
         check_width(problem, radius)
         length = next_length(made, x, change)
         left = left_after(made)
-        if left < closed * x**ONSET and not problem.retardation_time:
-            more, after = released(problem, made, left)
+        near = left < closed * x**ONSET and not problem.retardation_time
+        if near and (parted := released(problem, made, left)):
+            more, after = parted
             ended = start + x**ONSET + more
             tries, pieces = step + 1 - tried, tuple(elements)
             return ContactRun(start, ended, first, pieces, begin, after, tries, problem.yielding)

@@ -6,6 +6,10 @@ from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
 from derivation.scene.dynamic.time_element import P, TimeElement, element
 from derivation.scene.numerics.collocation import NEXT, radau
 
+STEADY, CLOSE = 0.1, 1e-9
+"""Largest change of the separation speed in the last step, and of its duration by an iteration that
+has converged [1]."""
+
 
 def last_element(
     problem: DynamicProblem,
@@ -27,10 +31,15 @@ def last_element(
     return made
 
 
-def released(problem: DynamicProblem, last: TimeElement, left: float) -> tuple[float, ImpactState]:
-    """Return duration and state at the end of the last step, in which P falls as t^(3/2)."""
+def released(
+    problem: DynamicProblem, last: TimeElement, left: float
+) -> tuple[float, ImpactState] | None:
+    """Return duration and state at the end of the last step, in which P falls as t^(3/2).
+
+    None if the separation speed changes so much, by fast modes, that P falls differently.
+    """
     state, force = last.end, float(np.sum(last.element.rows[P]))
-    after, shape = state, problem.contact.modes.shape
+    shape = problem.contact.modes.shape
     pressed = problem.inverse_modal_mass * last.modal_forces[shape]
     stretched = np.zeros_like(pressed)
     if last.stretched is not None:
@@ -48,5 +57,9 @@ def released(problem: DynamicProblem, last: TimeElement, left: float) -> tuple[f
             flown.q_dot + pressed * push + stretched * left,
             flown.approach - force * shift - float(np.sum(moved)),
         )
-        left += after.approach / after.separation_speed
-    return left, after._replace(approach=0.0)
+        speed = after.separation_speed
+        if not abs(speed / state.separation_speed - 1.0) <= STEADY:
+            return None
+        more = after.approach / speed
+        left += more
+    return (left, after._replace(approach=0.0)) if abs(more) <= CLOSE * left else None

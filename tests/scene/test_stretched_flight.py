@@ -1,14 +1,18 @@
 """Rough simulations of flights over a plate that stretches, against accurate ones."""
 
+import tomllib
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
+from shared_scenes import EXAMPLES
 
 from derivation.scene import explain, read
 from derivation.scene.dynamic import stretched_flight
-from derivation.scene.dynamic.contact_sequence import ContactRun, impact_history
+from derivation.scene.dynamic.contact_sequence import ContactRun, ImpactHistory, impact_history
 from derivation.scene.dynamic.flight import may_touch, slow_modes
+from derivation.scene.dynamic.integration_error import integration_error
 from derivation.scene.dynamic.modal import Indices
 from derivation.scene.dynamic.mode_count import branching
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
@@ -58,7 +62,7 @@ def followed() -> Followed:
         contacts = impact_history(problem, NODES, TOLERANCE).contacts
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(stretched_flight, "next_approach", lambda *_: 0.0)
-            last = flight(problem, NODES, contacts[-1].after, 0.0, MOST)
+            last = flight(problem, NODES, contacts[-1].after, 0.0, MOST, TOLERANCE)
     return Followed(problem, contacts, last)
 
 
@@ -107,11 +111,17 @@ def test_margin_covers_the_error_of_the_deflection(
     simulated, found = stretched_flight._piece, list[tuple[float, float, float]]()
 
     def recorded(
-        parts: FlightProblem, n: int, x: float, state: ImpactState, radius: float, margin: float
+        parts: FlightProblem,
+        n: int,
+        x: float,
+        state: ImpactState,
+        radius: float,
+        tolerance: float,
+        margin: float,
     ) -> tuple[FlightPiece, bool]:
         """Return an element, and record its start, the deflection there and the margin."""
         found.append((x**ONSET - BEGIN, float(np.sum(state.q)), margin))
-        return simulated(parts, n, x, state, radius, margin)
+        return simulated(parts, n, x, state, radius, tolerance, margin)
 
     monkeypatch.setattr(stretched_flight, "_piece", recorded)
     assert approach_after(followed.problem, piece.since, piece.start) is None
@@ -141,3 +151,23 @@ def test_slow_modes_exclude_a_contact_only_where_none_is_possible(followed: Foll
     may = may_touch(problem, state, gap, times, modes)
     assert np.all(may[overlap >= 0.0])
     assert np.mean(may) < 0.3
+
+
+@lru_cache
+def soft_layer(nodes: int, tolerance: float) -> ImpactHistory:
+    """Return the example `soft_layer` with few modes."""
+    scene = read(tomllib.loads((EXAMPLES / "soft_layer.toml").read_text()))
+    law = branching(explain(scene).effects.law, "A0")
+    return impact_history(problem_of(law, 15, tolerance), nodes, tolerance)
+
+
+@pytest.mark.parametrize("nodes", [20, 24, 32])
+@pytest.mark.parametrize("tolerance", [1e-8, 1e-11])
+def test_flights_are_as_accurate_as_contacts(nodes: int, tolerance: float) -> None:
+    """An earlier version did not check their elements: 24 nodes exceeded the bound of 1e-11."""
+    found, accurate = soft_layer(nodes, tolerance), soft_layer(40, 1e-12)
+    bound = integration_error(found)
+    for one, other in zip(found.contacts, accurate.contacts, strict=True):
+        assert one.start == pytest.approx(other.start, rel=bound)
+        assert one.end == pytest.approx(other.end, rel=bound)
+        assert one.after.velocity == pytest.approx(other.after.velocity, abs=bound)

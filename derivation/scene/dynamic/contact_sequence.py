@@ -156,7 +156,7 @@ def impact_history(
             after, last = touching.after, touching.pieces[-1].radius
             if touching.yielding is not problem.yielding:
                 problem = replace(problem, yielding=touching.yielding)
-            flown = _flight(problem, n, after, last, work - used)
+            flown = _flight(problem, n, after, last, work - used, tolerance)
             runs[-1], used = touching._replace(flight=flown.pieces), used + flown.work
             if flown.wait == math.inf or touching.end + flown.wait > problem.first_echo:
                 return ImpactHistory(problem, tuple(runs), LEFT, "", used, tolerance)
@@ -190,27 +190,37 @@ class FlightRun(NamedTuple):
 
 
 def _flight(
-    problem: DynamicProblem, n: int, after: ImpactState, radius: float, work: float
+    problem: DynamicProblem,
+    n: int,
+    after: ImpactState,
+    radius: float,
+    work: float,
+    tolerance: float,
 ) -> FlightRun:
     """Return the flight after a separation.
 
     A sphere that falls back only by its weight has left the plate: its return is another impact.
     """
     weightless = replace(problem, weight=0.0) if problem.weight else problem
-    one = _flight_with(weightless, n, after, radius, work)
+    one = _flight_with(weightless, n, after, radius, work, tolerance)
     if not problem.weight or one.wait == math.inf:
         return one
-    other = _flight_with(problem, n, after, radius, work - one.work)
+    other = _flight_with(problem, n, after, radius, work - one.work, tolerance)
     return other._replace(work=one.work + other.work)
 
 
 def _flight_with(
-    problem: DynamicProblem, n: int, after: ImpactState, radius: float, work: float
+    problem: DynamicProblem,
+    n: int,
+    after: ImpactState,
+    radius: float,
+    work: float,
+    tolerance: float,
 ) -> FlightRun:
     """Return the flight after a separation, with the weight of the problem."""
     if problem.middle_plane is None:
         return FlightRun(*next_contact(problem, after, radius, work))
-    flown = flight(problem, n, after, radius, steps_of(problem, n, work))
+    flown = flight(problem, n, after, radius, steps_of(problem, n, work), tolerance)
     wait = flown.pieces[-1].end if flown.met else math.inf
     used = len(flown.pieces) * weight_of(problem, n)
     at_end = float(recovering_radius(problem, np.array([wait]), radius)[0]) if flown.met else 0.0

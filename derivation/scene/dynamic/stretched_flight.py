@@ -39,7 +39,7 @@ from derivation.scene.dynamic.time_element import (
     integral,
 )
 from derivation.scene.errors import IncompleteError
-from derivation.scene.numerics.collocation import ONSET, radau
+from derivation.scene.numerics.collocation import ONSET, change_of_length, radau
 from derivation.scene.numerics.crossing import rise
 from generated.arrays import Double as Array
 
@@ -150,7 +150,14 @@ class FlightProblem:
         return values
 
 
-def flight(problem: DynamicProblem, n: int, after: ImpactState, radius: float, most: int) -> Flight:
+def flight(
+    problem: DynamicProblem,
+    n: int,
+    after: ImpactState,
+    radius: float,
+    most: int,
+    tolerance: float,
+) -> Flight:
     """Return the flight from a separation to the next contact, or until none is possible.
 
     Parameters
@@ -161,6 +168,8 @@ def flight(problem: DynamicProblem, n: int, after: ImpactState, radius: float, m
         State and radius at separation.
     most
         Largest number of elements.
+    tolerance
+        As for `impact_history`.
 
     Raises
     ------
@@ -178,7 +187,7 @@ def flight(problem: DynamicProblem, n: int, after: ImpactState, radius: float, m
             if near is None:
                 return Flight(tuple(pieces), state, False)
             accurate = near + wait
-        piece, met = _piece(parts, n, x, state, radius)
+        piece, met = _piece(parts, n, x, state, radius, tolerance)
         x = piece.made.element.x + piece.made.element.length
         state = state_after(parts, piece)
         pieces.append(piece)
@@ -214,7 +223,8 @@ def next_approach(
         missing = float(problem.strength[first] @ np.abs(plane.forces(q) - rough.forces(q)))
         rate = MISSING * max(before, missing)
         try:
-            piece, near = _piece(parts, n, x, state, 0.0, moved + rate * longest)
+            margin = moved + rate * longest
+            piece, near = _piece(parts, n, x, state, 0.0, math.inf, margin)
         except IncompleteError:
             break
         if near:
@@ -239,6 +249,7 @@ def _piece(
     x: float,
     state: ImpactState,
     radius: float,
+    tolerance: float,
     margin: float | None = None,
 ) -> tuple[FlightPiece, bool]:
     """Return the next element, and whether it ends with a contact.
@@ -258,8 +269,8 @@ def _piece(
         made, _, values = found
         return made, radau(n).analysis @ values.approach, radau(n).analysis @ values.q
 
-    while (found := solved(length)) is None:
-        length *= 0.5
+    while (found := solved(length)) is None or (change := _shorter(found[0], tolerance)) < 1.0:
+        length *= change if found else 0.5
         if length < SHORTEST * first:
             raise _unsolved(parts.whole, x)
     made, approach, q = found
@@ -303,6 +314,17 @@ def _piece(
     if shorter is None:
         raise _unsolved(parts.whole, x)
     return FlightPiece(shorter[0], t, state), True
+
+
+def _shorter(made: TimeElement, tolerance: float) -> float:
+    """Return the factor for the length of an element that is not accurate enough; else 1.
+
+    Free vibration is exact for any length, but the forces of stretching are polynomials. They are
+    as smooth as the energy of the plate.
+    """
+    sizes = np.abs(made.element.rows[[W, E]])
+    error, change = change_of_length((sizes / sizes.max(axis=1, keepdims=True)).max(0), tolerance)
+    return change if error > tolerance else 1.0
 
 
 @lru_cache(maxsize=4)

@@ -285,7 +285,7 @@ SOFT: dict[str, Any] = {
 def test_note_names_no_speed_if_the_weight_alone_stretches_the_plate() -> None:
     """An earlier note named speeds at which the error was as large as before."""
     note = simulate(read(SOFT)).unusable_note
-    assert "Thickness for an error by this of about 10 %" in note
+    assert "Thickness at which this error is about 10 %" in note
     assert "m/s" not in note
     found = re.search(r"max indentation ([\d.]+) mm", note)
     assert found

@@ -26,6 +26,7 @@ _SAFETY = 0.9  # part of the length that the sizes of the coefficients allow
 _LEAST = 0.01  # least square of a continued row, over the square at the end of its element
 _LOW = 0.1  # least over largest value at the nodes above which a row has no zero between them
 _REAL = 1e-9  # largest imaginary part of a real root, due to rounding
+_ROSE = 1e-10  # least value before a zero, over the largest one, that is not due to rounding
 
 
 class Radau(NamedTuple):
@@ -169,8 +170,10 @@ class Element(NamedTuple):
         inner = roots.real[(np.abs(roots.imag) < _REAL) & (np.abs(roots.real) <= 1.0)]
         # Rounding may hide a zero at the end.
         inner = np.append(np.sort(inner), 1.0) if values[-1] <= 0.0 else np.sort(inner)
-        falling = np.maximum(legval(inner, legder(self.rows[row])), legval(inner, self.slope)) < 0.0
-        falls = inner[falling]
+        slope = legval(inner, legder(self.rows[row]))
+        # At the start of a contact the force vanishes, and rounding causes zeros nearby.
+        rose = -slope * (1.0 + inner) > _ROSE * values.max()
+        falls = inner[rose & (legval(inner, self.slope) < 0.0)]
         return self.x + self.length * (1.0 + float(falls[0])) / 2.0 if falls.size else None
 
     def end(self, row: int) -> float:

@@ -123,7 +123,7 @@ def _by_stretching(result: "Result") -> str:
     return (
         f"The plate deflects by {times:.2g} thicknesses{_neglected(result)} (error "
         f"{up_to(worst)}). "
-        f"{'Speed or thickness' if slow else 'Thickness'} for an error by this of about "
+        f"{'Speed or thickness' if slow else 'Thickness'} at which this error is about "
         f"{percent(USABLE)}: {', '.join(remedies)}."
     )
 
@@ -196,7 +196,7 @@ def _by_sphere(result: "Result") -> str:
     return (
         f"The contact radius is {result.max_contact_radius / float(result.model.R):.2g} of the "
         f"sphere's radius, and the model {assumes} "
-        f"(error {up_to(error)}). Speed for an error by this of about {percent(USABLE)}: {speed}."
+        f"(error {up_to(error)}). Speed at which this error is about {percent(USABLE)}: {speed}."
     )
 
 

@@ -12,6 +12,7 @@ from derivation.scene import explain, read
 from derivation.scene.dynamic import stretched_flight
 from derivation.scene.dynamic.contact_sequence import ContactRun, ImpactHistory, impact_history
 from derivation.scene.dynamic.flight import may_touch, slow_modes
+from derivation.scene.dynamic.flight_history import rows_in_flight
 from derivation.scene.dynamic.integration_error import integration_error
 from derivation.scene.dynamic.modal import Indices
 from derivation.scene.dynamic.mode_count import branching
@@ -23,7 +24,6 @@ from derivation.scene.dynamic.stretched_flight import (
     FlightProblem,
     flight,
     next_approach,
-    rows_in_flight,
 )
 from derivation.scene.dynamic.wave_problem import problem_of
 from derivation.scene.numerics.collocation import ONSET

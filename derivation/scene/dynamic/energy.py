@@ -6,8 +6,8 @@ from itertools import pairwise
 import numpy as np
 
 from derivation.scene.dynamic.contact_sequence import ContactRun, ImpactHistory
+from derivation.scene.dynamic.flight_history import energy_lost
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
-from derivation.scene.dynamic.stretched_flight import energy_lost
 from derivation.scene.dynamic.time_element import DAMPED, LEAK, LOST, integral
 from derivation.scene.numerics.collocation import ONSET
 from derivation.scene.numerics.quadrature import NODES, gauss

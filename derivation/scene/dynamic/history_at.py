@@ -5,9 +5,9 @@ from numpy.polynomial.legendre import legvander
 
 from derivation.scene.dynamic.contact_sequence import ContactRun, ImpactHistory
 from derivation.scene.dynamic.flight import AT_ONCE
+from derivation.scene.dynamic.flight_history import rows_in_flight, shapes_in_flight
 from derivation.scene.dynamic.modal_response import nodes_of
 from derivation.scene.dynamic.problem import DynamicProblem, ImpactState
-from derivation.scene.dynamic.stretched_flight import rows_in_flight, shapes_in_flight
 from derivation.scene.dynamic.time_element import A, C, E, P, V, W, Z, deflections_at
 from derivation.scene.numerics.collocation import ONSET, Element
 from generated.arrays import Double as Array

@@ -23,8 +23,9 @@ WITHIN = 0.5
 """Remaining time from the approach over that from the radius, below which the latter is used."""
 OWN = 1e3
 """Factor of the tolerance for the radius, relative to the largest value in its own element."""
-ROUGH = 1e2
-"""Factor of the tolerance for the force of a viscoelastic contact."""
+ROUGH, ENDING = 1e2, 1e1
+"""Factors of the tolerance for the force of a viscoelastic contact: in general, and in the element
+in which it ends."""
 
 
 def solved(
@@ -60,9 +61,10 @@ def error_and_scales(
     unit = largest.copy()
     # At the end the radius determines the time of separation: it needs a relative accuracy.
     unit[A] = OWN * sizes[A].max()
-    # A viscoelastic force is as rough as the rate of the radius; it is only integrated.
+    # A viscoelastic force is as rough as the rate of the radius. It is only integrated, but at the
+    # end it determines the contact time.
     if problem.retardation_time:
-        unit[P] *= ROUGH
+        unit[P] *= ROUGH if made.element.rows[P].sum() > 0.0 else ENDING
     return *change_of_length((sizes / unit).max(axis=0), tolerance), largest
 
 

@@ -1,4 +1,4 @@
-"""The last step of a contact, in which the sphere separates before the plate vibrates."""
+"""The last step of a contact, which assumes that sphere and plate separate at a constant speed."""
 
 import math
 from functools import lru_cache
@@ -36,7 +36,7 @@ def energy(problem: DynamicProblem, state: ImpactState) -> float:
 
 
 def test_last_step_does_the_work_of_a_force_that_falls_as_the_power_three_halves() -> None:
-    """The step is tried after each element; most are too early for it."""
+    """The step is tried after each element. Most elements end too early for it."""
     steps = 0
     for touching in history(12).contacts:
         for piece in touching.pieces:

@@ -43,7 +43,9 @@ def history(data: dict[str, Any], modes: int, nodes: int, tolerance: float) -> I
 
 @pytest.mark.parametrize("modes", [3, 5, 8, 13])
 def test_short_elements_do_not_amplify_rounding_errors(modes: int) -> None:
-    """They corrected those of the indentation by large forces, so that no element was accurate."""
+    """An earlier version corrected errors of the indentation at once, by the larger forces the
+    shorter an element was, so that no element was accurate enough.
+    """
     found, other = history(THIN, modes, 24, 1e-11), history(THIN, modes, 32, 1e-10)
     assert found.complete
     assert len(found.contacts) == len(other.contacts)

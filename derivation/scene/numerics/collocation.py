@@ -26,7 +26,7 @@ _SAFETY = 0.9  # part of the length that the sizes of the coefficients allow
 _LEAST = 0.01  # least square of a continued row, over the square at the end of its element
 _LOW = 0.1  # least over largest value at the nodes above which a row has no zero between them
 _REAL = 1e-9  # largest imaginary part of a real root, due to rounding
-_ROSE = 1e-10  # least value before a zero, over the largest one, that is not due to rounding
+_ROSE = 1e-10  # least rise before a zero, over the largest value, that is not due to rounding
 
 
 class Radau(NamedTuple):
